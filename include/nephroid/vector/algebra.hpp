@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+/// @file  The vector algebra that the library is written in, over any type with `vector_traits`.
+#pragma once
+
+#include "nephroid/vector/stable.hpp"
+#include "nephroid/vector/traits.hpp"
+
+#include <type_traits>
+
+namespace nephroid {
+
+// Component-wise operators for every vector. Code inside namespace nephroid finds them by ordinary look-up and the
+// type's own by argument-dependent look-up; where the type has a linear operator of exactly this shape, that one is
+// the better match and is used (GLM, SSE vectors), and where its operator would convert, build an expression
+// template or do not exist at all, these are. User code does not see them (without `using
+// namespace nephroid`). Traits with a member
+// `native_operators = true` take them out of the running.
+namespace detail {
+template <class V>
+concept UsesOurOperators = Vector3<V> && !requires { requires vector_traits<V>::native_operators; };
+} // namespace detail
+
+template <detail::UsesOurOperators V>
+[[nodiscard]] constexpr V operator+(const V& a, const V& b) {
+    using t = vector_traits<V>;
+    return t::make(t::x(a) + t::x(b), t::y(a) + t::y(b), t::z(a) + t::z(b));
+}
+
+template <detail::UsesOurOperators V>
+[[nodiscard]] constexpr V operator-(const V& a, const V& b) {
+    using t = vector_traits<V>;
+    return t::make(t::x(a) - t::x(b), t::y(a) - t::y(b), t::z(a) - t::z(b));
+}
+
+template <detail::UsesOurOperators V>
+[[nodiscard]] constexpr V operator-(const V& a) {
+    using t = vector_traits<V>;
+    return t::make(-t::x(a), -t::y(a), -t::z(a));
+}
+
+template <detail::UsesOurOperators V>
+[[nodiscard]] constexpr V operator*(const std::type_identity_t<scalar_t<V>>& s, const V& a) {
+    using t = vector_traits<V>;
+    return t::make(s * t::x(a), s * t::y(a), s * t::z(a));
+}
+
+// The functions below are objects, so that an unqualified call inside the library is never a candidate for
+// argument-dependent look-up in the vector's own namespace (glm::dot, Eigen's, ...).
+
+/// make_vector<V>(x, y, z)
+template <Vector3 V>
+[[nodiscard]] constexpr V make_vector(scalar_t<V> x, scalar_t<V> y, scalar_t<V> z) {
+    return vector_traits<V>::make(x, y, z);
+}
+
+template <Vector3 V>
+[[nodiscard]] constexpr V zero_vector() {
+    return make_vector<V>(scalar_t<V>(0), scalar_t<V>(0), scalar_t<V>(0));
+}
+
+namespace detail {
+struct Dot {
+    template <Vector3 V>
+    [[nodiscard]] constexpr scalar_t<V> operator()(const V& a, const std::type_identity_t<V>& b) const {
+        using t = vector_traits<V>;
+        return t::x(a) * t::x(b) + t::y(a) * t::y(b) + t::z(a) * t::z(b);
+    }
+};
+
+struct Cross {
+    template <Vector3 V>
+    [[nodiscard]] constexpr V operator()(const V& a, const std::type_identity_t<V>& b) const {
+        using t = vector_traits<V>;
+        return t::make(difference_of_products<scalar_t<V>>(t::y(a), t::z(b), t::z(a), t::y(b)),
+                       difference_of_products<scalar_t<V>>(t::z(a), t::x(b), t::x(a), t::z(b)),
+                       difference_of_products<scalar_t<V>>(t::x(a), t::y(b), t::y(a), t::x(b)));
+    }
+};
+
+struct Length2 {
+    template <Vector3 V>
+    [[nodiscard]] constexpr scalar_t<V> operator()(const V& a) const {
+        return Dot{}(a, a);
+    }
+};
+
+struct Length {
+    template <Vector3 V>
+    [[nodiscard]] scalar_t<V> operator()(const V& a) const {
+        return sqrt(Dot{}(a, a));
+    }
+};
+
+struct Normalize {
+    template <Vector3 V>
+    [[nodiscard]] V operator()(const V& a) const {
+        return scalar_t<V>(1) / Length{}(a) * a;
+    }
+};
+
+struct DirectionOf {
+    template <Vector3 V>
+    [[nodiscard]] V operator()(const V& a) const {
+        using t = vector_traits<V>;
+        using T = scalar_t<V>;
+        const T largest = (std::max)({T(abs(T(t::x(a)))), T(abs(T(t::y(a)))), T(abs(T(t::z(a))))});
+        return Normalize{}(t::make(t::x(a) / largest, t::y(a) / largest, t::z(a) / largest));
+    }
+};
+
+struct AllFinite {
+    template <Vector3 V>
+    [[nodiscard]] bool operator()(const V& a) const {
+        using t = vector_traits<V>;
+        return isfinite(t::x(a)) && isfinite(t::y(a)) && isfinite(t::z(a));
+    }
+};
+} // namespace detail
+
+inline constexpr detail::Dot dot{};             ///< a · b
+inline constexpr detail::Cross cross{};         ///< a × b, each component free of cancellation
+inline constexpr detail::Length2 length2{};     ///< |a|²
+inline constexpr detail::Length length{};       ///< |a|
+inline constexpr detail::Normalize normalize{}; ///< a / |a|; a must not be zero
+/// a / |a| for a of any length but zero, also where |a|² would underflow or overflow.
+inline constexpr detail::DirectionOf direction_of{};
+inline constexpr detail::AllFinite all_finite{}; ///< no component is NaN or infinite
+
+} // namespace nephroid

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a vector is: one traits class that a renderer specialises for its own type, once.
+#pragma once
+
+#include "nephroid/vector/scalar.hpp"
+
+#include <concepts>
+#include <type_traits>
+
+namespace nephroid {
+
+/// How the library reads and makes a user's vector. Specialise it for a vector type of three components:
+///
+/// ```cpp
+/// template <> struct nephroid::vector_traits<MyVec3> {
+///     using scalar = float;
+///     static MyVec3 make(float x, float y, float z) { return {x, y, z}; }
+///     static float x(const MyVec3& v) { return v.x; }
+///     static float y(const MyVec3& v) { return v.y; }
+///     static float z(const MyVec3& v) { return v.z; }
+/// };
+/// ```
+///
+/// That is all: no operator is asked for (algebra.hpp says when a type's own are used), and the products are computed
+/// from the components. A type whose operators are templates that would take anything may be ambiguous with the
+/// library's; `static constexpr bool native_operators = true;` in its traits then leaves all four to the type. The primary
+/// template stays undefined, so that a foreign type makes a concept answer "no" instead of failing inside.
+template <class V>
+struct vector_traits;
+
+template <class V>
+concept HasVectorTraits = requires { sizeof(vector_traits<V>); };
+
+template <class V>
+concept HasScalar = HasVectorTraits<V> && Scalar<typename vector_traits<V>::scalar>;
+
+template <class V>
+concept HasComponents = HasScalar<V> && requires(const V v) {
+    { vector_traits<V>::x(v) } -> std::convertible_to<typename vector_traits<V>::scalar>;
+    { vector_traits<V>::y(v) } -> std::convertible_to<typename vector_traits<V>::scalar>;
+    { vector_traits<V>::z(v) } -> std::convertible_to<typename vector_traits<V>::scalar>;
+};
+
+template <class V>
+concept MakesFromComponents = HasScalar<V> && requires(const typename vector_traits<V>::scalar s) {
+    { vector_traits<V>::make(s, s, s) } -> std::convertible_to<V>;
+};
+
+/// A vector of three components of one scalar type, described by `vector_traits`.
+template <class V>
+concept Vector3 = std::copyable<V> && HasVectorTraits<V> && HasScalar<V> && HasComponents<V> && MakesFromComponents<V>;
+
+template <Vector3 V>
+using scalar_t = typename vector_traits<V>::scalar;
+
+} // namespace nephroid
