@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+/// @file  How a surface's normal changes along it: the four ways in which renderers know.
+///
+/// Each is a function from the displacement of a hit point in the tangent plane, dx, to the change of the *shading*
+/// normal, dn. A hit carries one of them as its member `curvature`; a scene with several kinds of surface carries a
+/// std::variant of them. When the walk flips a normal to face the ray it flips dn with it.
+#pragma once
+
+#include "nephroid/vector/algebra.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <limits>
+#include <variant>
+
+namespace nephroid {
+
+/// Says how the shading normal changes: `curvature(dx)` is dn.
+template <class C, class V>
+concept Curvature = Vector3<V> && requires(const C curvature, const V d_position) {
+    { curvature(d_position) } -> std::convertible_to<V>;
+};
+
+/// The shading normal is constant: a plane, a flat-shaded triangle. Say so explicitly: the library never assumes it.
+struct Flat {
+    template <Vector3 V>
+    [[nodiscard]] constexpr V operator()(const V&) const {
+        return zero_vector<V>();
+    }
+};
+
+/// The derivative of a unit normal as a linear map, dn = S dx: for surfaces that know their curvature exactly.
+template <Vector3 V>
+struct ShapeOperator {
+    V column_x, column_y, column_z; ///< S = [column_x column_y column_z], 1 / length
+
+    [[nodiscard]] V operator()(const V& d_position) const {
+        using t = vector_traits<V>;
+        return t::x(d_position) * column_x + (t::y(d_position) * column_y + t::z(d_position) * column_z);
+    }
+};
+
+/// The shape operator with principal directions e1, e2 (unit, orthogonal) and principal curvatures k1, k2 in
+/// 1 / length; positive where the surface curves away from its normal, as a sphere's outward one: k1 = k2 = 1/R.
+template <Vector3 V>
+[[nodiscard]] ShapeOperator<V> principal_curvatures(const V& e1, scalar_t<V> k1, const V& e2, scalar_t<V> k2) {
+    using t = vector_traits<V>;
+    const auto column = [&](scalar_t<V> along_1, scalar_t<V> along_2) -> V {
+        return (k1 * along_1) * e1 + (k2 * along_2) * e2;
+    };
+    return {column(t::x(e1), t::x(e2)), column(t::y(e1), t::y(e2)), column(t::z(e1), t::z(e2))};
+}
+
+/// The shape operator of a sphere with its outward normal; of a negative radius, with the inward one.
+template <Vector3 V>
+[[nodiscard]] ShapeOperator<V> sphere_curvature(scalar_t<V> radius) {
+    using T = scalar_t<V>;
+    const T k = T(1) / radius, zero(0);
+    return {make_vector<V>(k, zero, zero), make_vector<V>(zero, k, zero), make_vector<V>(zero, zero, k)};
+}
+
+/// A surface of parameters u, v with derivatives of position and of the (unit) shading normal, as pbrt and Mitsuba
+/// hits carry them. dx = a dpdu + b dpdv is solved in the least-squares sense.
+template <Vector3 V>
+struct ParametricCurvature {
+    V dpdu, dpdv;
+    V dndu, dndv;
+
+    /// Where dpdu and dpdv are parallel (the pole of a sphere, degenerate uv) only the longer one is used; where
+    /// both vanish nothing is known about the normal and dn is zero.
+    [[nodiscard]] V operator()(const V& d_position) const {
+        using T = scalar_t<V>;
+        return isfinite(T(length2(dpdu) * length2(dpdv))) ? solve(d_position) : in_range().solve(d_position);
+    }
+
+private:
+    [[nodiscard]] V solve(const V& d_position) const {
+        using T = scalar_t<V>;
+        const T uu = length2(dpdu), vv = length2(dpdv);
+        // By cross products, which keep their digits in sheared coordinates where the Gram matrix has lost them.
+        const V across = cross(dpdu, dpdv);
+        const T gram = length2(across); // uu vv sin²
+        if (gram > square(T(16) * std::numeric_limits<T>::epsilon()) * uu * vv) {
+            const T a = dot(cross(d_position, dpdv), across) / gram;
+            const T b = dot(cross(dpdu, d_position), across) / gram;
+            return a * dndu + b * dndv;
+        }
+        if (!(uu > T(0)) && !(vv > T(0)))
+            return zero_vector<V>();
+        return uu >= vv ? V((dot(d_position, dpdu) / uu) * dndu) : V((dot(d_position, dpdv) / vv) * dndv);
+    }
+
+    /// The same surface in parameters of about the unit of length, for parameters so small that squares overflow.
+    [[nodiscard]] ParametricCurvature in_range() const {
+        const auto scale = [](const V& d) { return scalar_t<V>(1) / (std::max)(scalar_t<V>(1), largest_component(d)); };
+        const scalar_t<V> u = scale(dpdu), v = scale(dpdv);
+        return {u * dpdu, v * dpdv, u * dndu, v * dndv};
+    }
+
+    [[nodiscard]] static scalar_t<V> largest_component(const V& d) {
+        using t = vector_traits<V>;
+        using T = scalar_t<V>;
+        return (std::max)({T(abs(T(t::x(d)))), T(abs(T(t::y(d)))), T(abs(T(t::z(d))))});
+    }
+};
+
+/// A triangle whose shading normal is interpolated from its vertices and normalised: n = N/|N|, N = Σ bᵢ nᵢ, so
+/// dn = (I − n nᵀ)(Σ dbᵢ nᵢ)/|N|. Made by `interpolated_normals`.
+template <Vector3 V>
+struct InterpolatedCurvature {
+    V gradient_1, gradient_2;  ///< of the barycentric coordinates b1 and b2, 1 / length
+    V d_normal_1, d_normal_2;  ///< (n1 − n0)/|N| and (n2 − n0)/|N|, normal component removed
+
+    [[nodiscard]] V operator()(const V& d_position) const {
+        return dot(gradient_1, d_position) * d_normal_1 + dot(gradient_2, d_position) * d_normal_2;
+    }
+};
+
+/// @param p0,p1,p2  the triangle's vertices
+/// @param n0,n1,n2  their normals, unit or not
+/// @param b1,b2     barycentric coordinates of the hit: position = p0 + b1 (p1 − p0) + b2 (p2 − p0)
+/// A triangle without area has no gradient and a vanishing interpolated normal no direction: dn is zero there.
+/// Source: Igehy 1999, "Normal interpolation".
+template <Vector3 V>
+[[nodiscard]] InterpolatedCurvature<V> interpolated_normals(const V& p0, const V& p1, const V& p2, const V& n0,
+                                                            const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
+    using T = scalar_t<V>;
+    const V e1 = p1 - p0, e2 = p2 - p0;
+    const V face = cross(e1, e2);
+    const V d1 = n1 - n0, d2 = n2 - n0;
+    const V normal = n0 + (b1 * d1 + b2 * d2);
+    const T face2 = length2(face), normal2 = length2(normal);
+    // Below the smallest normal number the square has lost its digits, and its inverse overflows.
+    const T least = (std::numeric_limits<T>::min)();
+    if (!(face2 >= least) || !(normal2 >= least))
+        return {zero_vector<V>(), zero_vector<V>(), zero_vector<V>(), zero_vector<V>()};
+    const T inverse_face2 = T(1) / face2, inverse_length = T(1) / sqrt(normal2);
+    const auto projected = [&](const V& d) -> V { return inverse_length * (d - dot(normal, d) / normal2 * normal); };
+    return {inverse_face2 * cross(e2, face), inverse_face2 * cross(face, e1), projected(d1), projected(d2)};
+}
+
+/// A hit on any of several kinds of surface: the curvature as std::variant.
+template <class... Kinds>
+struct AnyCurvature : std::variant<Kinds...> {
+    using std::variant<Kinds...>::variant;
+
+    template <Vector3 V>
+        requires(Curvature<Kinds, V> && ...)
+    [[nodiscard]] V operator()(const V& d_position) const {
+        return std::visit([&](const auto& kind) -> V { return kind(d_position); },
+                          static_cast<const std::variant<Kinds...>&>(*this));
+    }
+};
+
+} // namespace nephroid
