@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a light is: something that emits photons and knows about how much it emits.
+#pragma once
+
+#include "nephroid/emission/photon.hpp"
+#include "nephroid/emission/spread.hpp"
+
+#include <concepts>
+
+namespace nephroid {
+
+/// A stream of numbers in [0, 1): `source.template next<T>()`, such as a `Sampler` (emission/sequence/sequence.hpp).
+template <class S, class T>
+concept SampleSource = requires(S source) {
+    { source.template next<T>() } -> std::convertible_to<T>;
+};
+
+namespace detail {
+struct AnySampleSource { // for the compiler's eyes only
+    template <class T>
+    T next();
+};
+
+template <class L>
+concept SaysWhatItEmits = Vector3<typename L::vector> && Flux<typename L::flux_type>;
+
+template <class P, class L>
+inline constexpr bool is_photon_of = false;
+template <class L, std::size_t N>
+inline constexpr bool is_photon_of<Photon<typename L::vector, typename L::flux_type, N>, L> = N >= 2;
+
+template <class P, class L>
+concept PhotonOf = is_photon_of<P, L>;
+
+template <class L>
+concept EmitsPhotons = requires(const L light, AnySampleSource& samples,
+                                const Spread<scalar_t<typename L::vector>> spread) {
+    { light.emit(samples, spread) } -> PhotonOf<L>;
+};
+
+template <class L>
+concept EstimatesPower = requires(const L light) {
+    { light.power() } -> std::convertible_to<double>;
+};
+} // namespace detail
+
+/// A light source. Its members:
+///
+/// - `vector` and `flux_type`
+/// - `emit(samples, spread) -> Photon`: one of `spread.photons` photons whose fluxes add up, on average, to the flux
+///   that the light sends into the domain it samples. It draws the same number of samples each time, the position's
+///   first, and its maps from samples to positions and directions are continuous where they can be, for stratified
+///   sequences. The first two tangents are an aligned pair of orthogonal ones at emission (emission/aligned_basis.hpp);
+///   a light may add more. It does not throw; a photon's flux may be zero.
+/// - `power()`: an estimate of that flux, `flux_traits::power`'s unit. Photons are shared among lights by it, so it
+///   may be zero only where the flux is.
+///
+/// The compiler checks the calls; `tests/emission/light/light_laws.hpp` checks the meaning, for every model.
+template <class L>
+concept Light = std::copyable<L> && detail::SaysWhatItEmits<L> && detail::EmitsPhotons<L> && detail::EstimatesPower<L>;
+
+} // namespace nephroid

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+/// @file  What all area lights share: how a surface of constant radiance sends photons on, aimed or not.
+#pragma once
+
+#include "nephroid/emission/aligned_basis.hpp"
+#include "nephroid/emission/cone.hpp"
+#include "nephroid/emission/light.hpp"
+#include "nephroid/emission/light/validate.hpp"
+
+#include <optional>
+
+namespace nephroid {
+
+/// A point of a light's surface.
+template <Vector3 V>
+struct LightPoint {
+    V position;
+    V normal; ///< unit, on the side that emits
+};
+
+/// Emission from points of a surface whose radiance is the same everywhere and into every direction above the horizon,
+/// and zero below.
+///
+/// Towards a target that fills less than π steradian the direction is uniform in the cone towards it; photons of the
+/// cone that are below the horizon carry no flux. Elsewhere, and without a target, it has the density cos/π. The
+/// choice is the point's own, so that a light may reach into its target.
+template <Vector3 V, Flux F>
+    requires ScalesFlux<F, scalar_t<V>>
+class AreaEmission {
+public:
+    using T = scalar_t<V>;
+
+    /// @param radiance  flux per area and steradian
+    /// @param target    what the light is aimed at, if it is
+    /// @param middle    of the light, and the normal there: where the map from samples to directions turns about least
+    AreaEmission(const F& radiance, const std::optional<BoundingSphere<V>>& target, const LightPoint<V>& middle)
+        : radiance_(radiance), target_(target), axis_(middle.normal) {
+        if (target_) {
+            const V towards = target_->center - middle.position;
+            const T distance = length(towards);
+            if (distance > target_->radius)
+                axis_ = T(1) / distance * towards;
+        }
+        frame_ = frame_about(axis_);
+    }
+
+    /// One of `spread.photons` photons.
+    ///
+    /// @param point   drawn uniformly from the light's area
+    /// @param area    that the light draws points from, world units squared
+    /// @param u1,u2   samples for the direction
+    [[nodiscard]] Photon<V, F> emit(const LightPoint<V>& point, T area, T u1, T u2, const Spread<T>& spread) const {
+        const T area_share = area / spread.photons;
+        if (const std::optional<Cone<V>> cone = useful_cone(point.position)) {
+            const V direction = direction_in(*cone, frame_turned_to(cone->axis), u1, u2);
+            const T cosine = (std::max)(T(0), dot(direction, point.normal));
+            const T solid_angle = cone->solid_angle();
+            return {point.position, direction, static_cast<F>(radiance_ * (cosine * solid_angle * area_share)),
+                    tangents(point.normal, direction, spread.length(area), spread.length(solid_angle))};
+        }
+        const V direction = cosine_direction(point.normal, frame_turned_to(point.normal), concentric_disk(u1, u2));
+        const T stands_for = pi<T> / dot(direction, point.normal); // 1 / density
+        return {point.position, direction, static_cast<F>(radiance_ * (pi<T> * area_share)),
+                tangents(point.normal, direction, spread.length(area), spread.length(stands_for))};
+    }
+
+    /// An estimate of the flux of a light of this area, from some of its points: `point(u1, u2)` at 64 places.
+    template <class Points>
+    [[nodiscard]] double power(T area, const Points& point) const {
+        constexpr int n = 8;
+        T sum = T(0);
+        for (int i = 0; i < n * n; ++i)
+            sum = sum + projected_solid_angle(point((T(i % n) + T(0.5)) / T(n), (T(i / n) + T(0.5)) / T(n)));
+        return flux_traits<F>::power(static_cast<F>(radiance_ * (area * (sum / T(n * n)))));
+    }
+
+private:
+    [[nodiscard]] std::optional<Cone<V>> useful_cone(const V& position) const {
+        if (!target_)
+            return std::nullopt;
+        const Cone<V> cone = cone_towards(*target_, position);
+        return cone.height < T(0.5) ? std::optional<Cone<V>>(cone) : std::nullopt;
+    }
+
+    /// The integral of the cosine over the directions that a point emits into, never zero. Exact where the horizon does
+    /// not cut the cone, about right where it does.
+    [[nodiscard]] T projected_solid_angle(const LightPoint<V>& point) const {
+        const std::optional<Cone<V>> cone = useful_cone(point.position);
+        if (!cone)
+            return pi<T>;
+        const T sine = sqrt(cone->height * (T(2) - cone->height));
+        const T cosine = dot(cone->axis, point.normal);
+        const T least = T(1e-3); // where these points see nothing of the target, others may
+        if (cosine >= sine)
+            return pi<T> * sine * sine * (std::max)(least, cosine);
+        const T above = (std::max)(T(0), cosine + sine);
+        return pi<T> * sine * ((std::max)(least * sine, above * above / T(4)));
+    }
+
+    /// The frame that turns with the axis: continuous while that is less than a right angle from the middle's.
+    [[nodiscard]] Frame<V> frame_turned_to(const V& axis) const {
+        using t = vector_traits<V>;
+        const Frame<V> local = frame_about(make_vector<V>(dot(axis, frame_.u), dot(axis, frame_.v), dot(axis, axis_)));
+        const auto world = [&](const V& l) -> V { return t::x(l) * frame_.u + (t::y(l) * frame_.v + t::z(l) * axis_); };
+        return {world(local.u), world(local.v)};
+    }
+
+    [[nodiscard]] static PhotonDifferential<V, 2> tangents(const V& normal, const V& direction, T d_position_length,
+                                                           T d_direction_length) {
+        const AlignedBasis<V> basis = aligned_basis(normal, direction);
+        return {Tangent<V>{d_position_length * basis.u, d_direction_length * basis.theta},
+                Tangent<V>{d_position_length * basis.v, d_direction_length * basis.phi}};
+    }
+
+    F radiance_;
+    std::optional<BoundingSphere<V>> target_;
+    V axis_;
+    Frame<V> frame_ = frame_about(axis_);
+};
+
+} // namespace nephroid

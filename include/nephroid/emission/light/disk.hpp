@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+/// @file  A disk of constant radiance that emits on one side.
+#pragma once
+
+#include "nephroid/emission/light/area.hpp"
+
+namespace nephroid {
+
+/// Emits from a disk along its normal's side, aimed as `AreaEmission` says. Draws 4 samples: two for the position, two
+/// for the direction.
+template <Vector3 V, Flux F>
+    requires ScalesFlux<F, scalar_t<V>>
+class DiskLight {
+public:
+    using vector = V;
+    using flux_type = F;
+    using T = scalar_t<V>;
+
+    struct Options {
+        V center;
+        V normal;   ///< on the side that emits, any length but zero
+        T radius;   ///< world units, > 0
+        F radiance; ///< flux per area and steradian, >= 0
+        std::optional<BoundingSphere<V>> target = std::nullopt;
+    };
+
+    /// Throws std::invalid_argument for a parameter outside of the ranges above.
+    explicit DiskLight(const Options& options)
+        : DiskLight(options, LightPoint<V>{options.center, validated_normal(options)}) {}
+
+    template <SampleSource<T> S>
+    [[nodiscard]] Photon<V, F> emit(S& samples, const Spread<T>& spread) const {
+        const T u1 = samples.template next<T>();
+        const T u2 = samples.template next<T>();
+        const T u3 = samples.template next<T>();
+        const T u4 = samples.template next<T>();
+        return emission_.emit(point(u1, u2), area_, u3, u4, spread);
+    }
+
+    /// Exact without a target, π radiance × area; else from 64 points of the disk.
+    [[nodiscard]] double power() const { return power_; }
+
+private:
+    DiskLight(const Options& options, const LightPoint<V>& middle)
+        : middle_(middle), across_(frame_about(middle.normal)), radius_(options.radius),
+          area_(pi<T> * square(options.radius)), emission_(options.radiance, options.target, middle),
+          power_(emission_.power(area_, [this](T u1, T u2) { return point(u1, u2); })) {}
+
+    [[nodiscard]] static V validated_normal(const Options& options) {
+        const detail::Validator validate("DiskLight");
+        validate.finite("center", options.center);
+        validate.positive("radius", options.radius);
+        validate.positive("radius squared", square(options.radius));
+        validate.flux("radiance", options.radiance);
+        validate.target(options.target);
+        return validate.direction("normal", options.normal);
+    }
+
+    [[nodiscard]] LightPoint<V> point(T u1, T u2) const {
+        const DiskPoint<T> disk = concentric_disk(u1, u2);
+        const V offset = (radius_ * disk.x) * across_.u + (radius_ * disk.y) * across_.v;
+        return {middle_.position + offset, middle_.normal};
+    }
+
+    LightPoint<V> middle_;
+    Frame<V> across_;
+    T radius_;
+    T area_;
+    AreaEmission<V, F> emission_;
+    double power_;
+};
+
+} // namespace nephroid

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// @file  A point light: the same intensity in every direction.
+#pragma once
+
+#include "nephroid/emission/cone.hpp"
+#include "nephroid/emission/light.hpp"
+#include "nephroid/emission/light/validate.hpp"
+
+#include <optional>
+
+namespace nephroid {
+
+namespace detail {
+/// The tangents of a photon from a point: no extent, and any two orthogonal changes of direction.
+template <Vector3 V>
+[[nodiscard]] PhotonDifferential<V, 2> point_tangents(const V& direction, scalar_t<V> d_direction_length) {
+    const Frame<V> frame = frame_about(direction);
+    const V zero = zero_vector<V>();
+    return {Tangent<V>{zero, d_direction_length * frame.u}, Tangent<V>{zero, d_direction_length * frame.v}};
+}
+} // namespace detail
+
+/// Emits from one point, uniformly into the cone towards its target, or into every direction: without a target, and
+/// from inside of it. Draws 2 samples.
+template <Vector3 V, Flux F>
+    requires ScalesFlux<F, scalar_t<V>>
+class PointLight {
+public:
+    using vector = V;
+    using flux_type = F;
+    using T = scalar_t<V>;
+
+    struct Options {
+        V position;
+        F intensity; ///< flux per steradian, >= 0
+        std::optional<BoundingSphere<V>> target = std::nullopt;
+    };
+
+    /// Throws std::invalid_argument unless the position is finite, the intensity >= 0 and the target's radius > 0.
+    explicit PointLight(const Options& options) : position_(options.position), intensity_(options.intensity) {
+        const detail::Validator validate("PointLight");
+        validate.finite("position", options.position);
+        validate.flux("intensity", options.intensity);
+        validate.target(options.target);
+        if (options.target)
+            cone_ = cone_towards(*options.target, position_);
+        frame_ = frame_about(cone_.axis);
+    }
+
+    template <SampleSource<T> S>
+    [[nodiscard]] Photon<V, F> emit(S& samples, const Spread<T>& spread) const {
+        const T u1 = samples.template next<T>();
+        const T u2 = samples.template next<T>();
+        const V direction = direction_in(cone_, frame_, u1, u2);
+        const T solid_angle = cone_.solid_angle();
+        return {position_, direction, static_cast<F>(intensity_ * (solid_angle / spread.photons)),
+                detail::point_tangents(direction, spread.length(solid_angle))};
+    }
+
+    /// Exact: intensity times the solid angle of the cone.
+    [[nodiscard]] double power() const {
+        return flux_traits<F>::power(static_cast<F>(intensity_ * cone_.solid_angle()));
+    }
+
+private:
+    V position_;
+    F intensity_;
+    Cone<V> cone_ = every_direction<V>();
+    Frame<V> frame_ = frame_about(cone_.axis);
+};
+
+} // namespace nephroid

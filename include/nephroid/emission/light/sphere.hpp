@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+/// @file  A sphere of constant radiance that emits outwards.
+#pragma once
+
+#include "nephroid/emission/light/area.hpp"
+
+namespace nephroid {
+
+/// Emits from a sphere outwards, aimed as `AreaEmission` says; aimed only from the cap whose points have something of
+/// the target above their horizon. Draws 4 samples: two for the position, two for the direction.
+template <Vector3 V, Flux F>
+    requires ScalesFlux<F, scalar_t<V>>
+class SphereLight {
+public:
+    using vector = V;
+    using flux_type = F;
+    using T = scalar_t<V>;
+
+    struct Options {
+        V center;
+        T radius;                                               ///< world units, > 0
+        F radiance;                                             ///< flux per area and steradian, >= 0
+        std::optional<BoundingSphere<V>> target = std::nullopt; ///< not inside of the light
+    };
+
+    /// Throws std::invalid_argument for a parameter outside of the ranges above.
+    explicit SphereLight(const Options& options) : SphereLight(options, validated_cap(options)) {}
+
+    template <SampleSource<T> S>
+    [[nodiscard]] Photon<V, F> emit(S& samples, const Spread<T>& spread) const {
+        const T u1 = samples.template next<T>();
+        const T u2 = samples.template next<T>();
+        const T u3 = samples.template next<T>();
+        const T u4 = samples.template next<T>();
+        return emission_.emit(point(u1, u2), area_, u3, u4, spread);
+    }
+
+    /// Exact without a target, π radiance × area; else from 64 points of the cap.
+    [[nodiscard]] double power() const { return power_; }
+
+private:
+    SphereLight(const Options& options, const Cone<V>& cap)
+        : center_(options.center), radius_(options.radius), cap_(cap), across_(frame_about(cap.axis)),
+          area_(cap.solid_angle() * square(options.radius)),
+          emission_(options.radiance, options.target,
+                    LightPoint<V>{options.center + options.radius * cap.axis, cap.axis}),
+          power_(emission_.power(area_, [this](T u1, T u2) { return point(u1, u2); })) {}
+
+    /// The normals n for which the target reaches above the plane (y − center) · n = radius.
+    [[nodiscard]] static Cone<V> validated_cap(const Options& options) {
+        const detail::Validator validate("SphereLight");
+        validate.finite("center", options.center);
+        validate.positive("radius", options.radius);
+        validate.positive("radius squared", square(options.radius));
+        validate.flux("radiance", options.radiance);
+        validate.target(options.target);
+        if (!options.target)
+            return every_direction<V>();
+
+        const V towards = options.target->center - options.center;
+        const T distance = length(towards);
+        const T reach = distance + (options.target->radius - options.radius);
+        if (!(reach > T(0)))
+            validate.complain("target of radius", detail::text_of(options.target->radius),
+                              "lies inside of the light, where it sends nothing; aim it at what is outside");
+        if (reach >= T(2) * distance)
+            return every_direction<V>();
+        constexpr T up = T(1) + T(8) * std::numeric_limits<T>::epsilon(); // no normal is to be missed
+        return {T(1) / distance * towards, (std::min)(T(2), up * reach / distance)};
+    }
+
+    [[nodiscard]] LightPoint<V> point(T u1, T u2) const {
+        const V normal = direction_in(cap_, across_, u1, u2);
+        return {center_ + radius_ * normal, normal};
+    }
+
+    V center_;
+    T radius_;
+    Cone<V> cap_;
+    Frame<V> across_;
+    T area_;
+    AreaEmission<V, F> emission_;
+    double power_;
+};
+
+} // namespace nephroid

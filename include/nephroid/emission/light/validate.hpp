@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+/// @file  What all lights ask of their parameters, and how they say that it is not so.
+#pragma once
+
+#include "nephroid/emission/flux.hpp"
+#include "nephroid/emission/target.hpp"
+#include "nephroid/vector/text.hpp"
+
+#include <optional>
+#include <string>
+
+namespace nephroid::detail {
+
+/// Complains about one parameter of one light: "nephroid::PointLight: radius -1 is not positive; pass ...".
+class Validator {
+public:
+    explicit constexpr Validator(const char* light) : light_(light) {}
+
+    template <Vector3 V>
+    void finite(const char* name, const V& v) const {
+        if (!all_finite(v))
+            complain(name, text_of(v), "is not finite; pass world coordinates");
+    }
+
+    /// The vector made a unit one; it may be as short or long as the scalar type allows.
+    template <Vector3 V>
+    [[nodiscard]] V direction(const char* name, const V& v) const {
+        using T = scalar_t<V>;
+        using t = vector_traits<V>;
+        finite(name, v);
+        if (!(abs(T(t::x(v))) + abs(T(t::y(v))) + abs(T(t::z(v))) > T(0)))
+            complain(name, text_of(v), "has no length; pass a direction, normalised or not");
+        return direction_of(v);
+    }
+
+    template <Scalar T>
+    void positive(const char* name, const T& x) const {
+        if (!(x > T(0)) || !isfinite(x))
+            complain(name, text_of(x), "is not positive and finite; pass world units");
+    }
+
+    template <Vector3 V>
+    void target(const std::optional<BoundingSphere<V>>& sphere) const {
+        if (!sphere)
+            return;
+        finite("target's centre", sphere->center);
+        positive("target's radius", sphere->radius);
+    }
+
+    template <Flux F>
+    void flux(const char* name, const F& f) const {
+        const double power = flux_traits<F>::power(f);
+        bool negative = !(power >= 0) || !std::isfinite(power);
+        if constexpr (Vector3<F>) {
+            using t = vector_traits<F>;
+            negative = negative || t::x(f) < 0 || t::y(f) < 0 || t::z(f) < 0;
+        }
+        if (negative)
+            complain(name, "of power " + text_of(power), "is negative or not finite; pass what the light emits");
+    }
+
+    [[noreturn]] void complain(const char* name, const std::string& value, const char* reason) const {
+        invalid_argument(std::string("nephroid::") + light_ + ": " + name + " " + value + " " + reason);
+    }
+
+private:
+    const char* light_;
+};
+
+} // namespace nephroid::detail

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+/// @file  A photon on its way: a ray, the flux it carries, and the tangents that give it a footprint.
+#pragma once
+
+#include "nephroid/differential/tangent.hpp"
+#include "nephroid/emission/flux.hpp"
+
+namespace nephroid {
+
+/// @tparam F  flux: float for monochrome, the renderer's colour, spectral bands; watts
+/// @tparam N  tangents: two unless the scene asks for more
+template <Vector3 V, Flux F, std::size_t N = 2>
+struct Photon {
+    using vector = V;
+    using flux_type = F;
+    static constexpr std::size_t tangent_count = N;
+
+    V position;
+    V direction; ///< unit
+    F flux;
+    PhotonDifferential<V, N> differential;
+};
+
+} // namespace nephroid

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a light is aimed at: a sphere about the specular objects, and the cone it fills from a point.
+#pragma once
+
+#include "nephroid/emission/cone.hpp"
+#include "nephroid/vector/error.hpp"
+
+#include <algorithm>
+#include <ranges>
+
+namespace nephroid {
+
+/// Bounds of the objects that photons are wanted at. A light that is aimed at it sends photons to every point that it
+/// lights in there, with the flux that it sends there unaimed, and none (or few) elsewhere.
+template <Vector3 V>
+struct BoundingSphere {
+    V center;
+    scalar_t<V> radius; ///< world units, > 0
+};
+
+/// A sphere that holds all points: about the centre of their box, reaching to the furthest of them (and a few units
+/// in the last place beyond). At most sqrt(3) times as wide as the smallest one, for a box's corners the smallest.
+///
+/// @param points  a range of vectors, finite, at least one; else std::invalid_argument. Bounds of several objects are
+///                bounded by passing the corners of their boxes. One point has a sphere of radius 0, no light's target.
+template <std::ranges::forward_range R>
+    requires Vector3<std::ranges::range_value_t<R>>
+[[nodiscard]] BoundingSphere<std::ranges::range_value_t<R>> bounding_sphere(const R& points) {
+    using V = std::ranges::range_value_t<R>;
+    using T = scalar_t<V>;
+    using t = vector_traits<V>;
+    if (std::ranges::begin(points) == std::ranges::end(points))
+        invalid_argument("nephroid::bounding_sphere: no points; pass at least two that differ");
+
+    V low = *std::ranges::begin(points), high = low;
+    for (const V& p : points) {
+        if (!all_finite(p))
+            invalid_argument("nephroid::bounding_sphere: a point is not finite; pass finite bounds");
+        low = t::make((std::min)(t::x(low), t::x(p)), (std::min)(t::y(low), t::y(p)), (std::min)(t::z(low), t::z(p)));
+        high =
+            t::make((std::max)(t::x(high), t::x(p)), (std::max)(t::y(high), t::y(p)), (std::max)(t::z(high), t::z(p)));
+    }
+    const V center = low + T(0.5) * (high - low);
+    T radius = T(0);
+    for (const V& p : points)
+        radius = (std::max)(radius, length(V(p - center)));
+    return {center, radius * (T(1) + T(8) * std::numeric_limits<T>::epsilon())};
+}
+
+/// The directions from a point to the sphere: every direction from inside of it. The cone is exact to a few units in
+/// the last place, however narrow it is (but for the widest, from points that all but touch the sphere), and rounded
+/// up, so that no direction is missed.
+template <Vector3 V>
+[[nodiscard]] Cone<V> cone_towards(const BoundingSphere<V>& target, const std::type_identity_t<V>& from) {
+    using T = scalar_t<V>;
+    const V towards = target.center - from;
+    const T distance = length(towards);
+    if (!(distance > target.radius))
+        return every_direction<V>();
+    constexpr T rounding = T(12) * std::numeric_limits<T>::epsilon(); // of all that is added up below, rounded up
+    const T inverse = T(1) / distance;
+    const T sine = target.radius * inverse;
+    const T cosine2 = ((distance - target.radius) * inverse) * (T(1) + sine);
+    const T cosine = sqrt((std::max)(T(0), cosine2 - rounding));
+    return {inverse * towards, (T(1) + rounding) * sine * sine / (T(1) + cosine)}; // 1 − cos = sin² / (1 + cos)
+}
+
+} // namespace nephroid
