@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+/// @file  A photon's footprint: an ellipse in the tangent plane of the surface it lands on.
+#pragma once
+
+#include "nephroid/vector/frame.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace nephroid {
+
+/// An ellipse about the origin: the points cos φ · a + sin φ · b. The semi-axis vectors need not be orthogonal.
+template <Vector3 V>
+struct Ellipse {
+    V a, b;
+    V normal; ///< unit, of the plane that a and b lie in
+};
+
+/// The footprint of a photon differential: semi-axes ½ D_u x and ½ D_v x.
+/// Source: Frisvad et al. 2014, section 3.1 and figure 4.
+template <Vector3 V>
+[[nodiscard]] Ellipse<V> footprint(const V& d_position_u, const V& d_position_v, const V& normal) {
+    return {scalar_t<V>(0.5) * d_position_u, scalar_t<V>(0.5) * d_position_v, normal};
+}
+
+namespace detail {
+/// A vector's components where their products neither overflow nor vanish: in double for float.
+template <Vector3 V>
+using Wide3 = std::array<wider_t<scalar_t<V>>, 3>;
+
+template <Vector3 V>
+[[nodiscard]] Wide3<V> widened(const V& v) {
+    using t = vector_traits<V>;
+    using W = wider_t<scalar_t<V>>;
+    return {W(t::x(v)), W(t::y(v)), W(t::z(v))};
+}
+
+template <class W>
+[[nodiscard]] W wide_dot(const std::array<W, 3>& a, const std::array<W, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/// n · (a × b)
+template <Vector3 V>
+[[nodiscard]] wider_t<scalar_t<V>> wide_area(const V& a, const V& b, const V& normal) {
+    const Wide3<V> u = widened(a), v = widened(b);
+    using W = wider_t<scalar_t<V>>;
+    return wide_dot<W>(widened(normal), {difference_of_products(u[1], v[2], u[2], v[1]),
+                                         difference_of_products(u[2], v[0], u[0], v[2]),
+                                         difference_of_products(u[0], v[1], u[1], v[0])});
+}
+} // namespace detail
+
+/// Signed |a × b|: what one unit of the disk's area becomes, world units squared.
+template <Vector3 V>
+[[nodiscard]] scalar_t<V> area_scale(const Ellipse<V>& ellipse) {
+    return scalar_t<V>(detail::wide_area(ellipse.a, ellipse.b, ellipse.normal));
+}
+
+/// The ellipse's area A_p = π |a × b| [Frisvad et al. 2014, eq. 4].
+template <Vector3 V>
+[[nodiscard]] scalar_t<V> area(const Ellipse<V>& ellipse) {
+    return pi<scalar_t<V>> * abs(area_scale(ellipse));
+}
+
+/// The exact semi-axes' lengths: the singular values of [a b]. The longer of |a| and |b|, which Frisvad et al. take
+/// for the major radius, is up to √2 too short when the two are not orthogonal.
+template <Vector3 V>
+[[nodiscard]] SingularValues<scalar_t<V>> radii(const Ellipse<V>& ellipse) {
+    using T = scalar_t<V>;
+    using W = wider_t<T>;
+    const auto a = detail::widened(ellipse.a), b = detail::widened(ellipse.b);
+    const W aa = detail::wide_dot(a, a), bb = detail::wide_dot(b, b), ab = detail::wide_dot(a, b);
+    const W major = sqrt(W(0.5) * (aa + bb + sqrt(square(aa - bb) + square(W(2) * ab))));
+    if (!(major > W(0)))
+        return {T(0), T(0)};
+    const W area = abs(detail::wide_area(ellipse.a, ellipse.b, ellipse.normal));
+    return {T(major), T((std::min)(major, area / major))};
+}
+
+/// Half the extents of the tight axis-aligned box: sqrt(aᵢ² + bᵢ²) along axis i.
+template <Vector3 V>
+[[nodiscard]] V half_extents(const Ellipse<V>& ellipse) {
+    using T = scalar_t<V>;
+    using t = vector_traits<V>;
+    const auto along = [](T a, T b) { return sqrt(a * a + b * b); };
+    return t::make(along(t::x(ellipse.a), t::x(ellipse.b)), along(t::y(ellipse.a), t::y(ellipse.b)),
+                   along(t::z(ellipse.a), t::z(ellipse.b)));
+}
+
+/// Two rows of a matrix M that takes the ellipse to the unit circle: |M x| < 1 inside it.
+template <Vector3 V>
+struct FilterMatrix {
+    V row_a, row_b;
+};
+
+/// M for semi-axes a and b: the top rows of the inverse of [a b n], without inverting a 3 × 3 matrix.
+/// The ellipse must not have collapsed: |a × b| > 0 (not checked).
+/// Source: Frisvad et al. 2014, eq. 12.
+template <Vector3 V>
+[[nodiscard]] FilterMatrix<V> filter_matrix(const Ellipse<V>& ellipse) {
+    const scalar_t<V> inverse = scalar_t<V>(1) / area_scale(ellipse);
+    return {inverse * cross(ellipse.b, ellipse.normal), inverse * cross(ellipse.normal, ellipse.a)};
+}
+
+/// The ratio of the minor to the major radius, σ_min/σ_max, in [0, 1]; 1 is a circle, and so is a point.
+template <Vector3 V>
+[[nodiscard]] scalar_t<V> axis_ratio(const Ellipse<V>& ellipse) {
+    const auto sigma = radii(ellipse);
+    return sigma.major > scalar_t<V>(0) ? sigma.minor / sigma.major : scalar_t<V>(1);
+}
+
+/// The paper's anisotropy m_a, in [0, 1]: the shorter axis vector without its part along the longer one, over the
+/// longer one's length. Equal to `axis_ratio` where a and b are orthogonal; larger elsewhere.
+/// Source: Frisvad et al. 2014, appendix B.
+template <Vector3 V>
+[[nodiscard]] scalar_t<V> unskewed_ratio(const Ellipse<V>& ellipse) {
+    using T = scalar_t<V>;
+    using W = wider_t<T>;
+    const auto a = detail::widened(ellipse.a), b = detail::widened(ellipse.b);
+    const W longest2 = (std::max)(detail::wide_dot(a, a), detail::wide_dot(b, b));
+    return longest2 > W(0) ? T(abs(detail::wide_area(ellipse.a, ellipse.b, ellipse.normal)) / longest2) : T(1);
+}
+
+namespace detail {
+/// Where an ellipse's covariance is written down: unit vectors along the longest of the vectors that span it, and
+/// across.
+template <Vector3 V>
+[[nodiscard]] Frame<V> frame_along(const V& longest, const V& normal) {
+    using t = vector_traits<V>;
+    using T = scalar_t<V>;
+    const bool vanishes = !(abs(T(t::x(longest))) + abs(T(t::y(longest))) + abs(T(t::z(longest))) > T(0));
+    const V u = vanishes ? frame_about(normal).u : direction_of(longest);
+    return {u, cross(normal, u)};
+}
+
+/// The ellipse with this covariance in the frame, given by its determinant instead of the variance along v, which
+/// would have to be had by a difference: its Cholesky factor.
+template <Vector3 V>
+[[nodiscard]] Ellipse<V> ellipse_of_covariance(const Frame<V>& frame, const V& normal,
+                                               wider_t<scalar_t<V>> variance_u, wider_t<scalar_t<V>> covariance,
+                                               wider_t<scalar_t<V>> determinant) {
+    using T = scalar_t<V>;
+    using W = wider_t<T>;
+    if (variance_u == W(0))
+        return {zero_vector<V>(), zero_vector<V>(), normal};
+    const W deviation = sqrt(variance_u);
+    return {T(deviation) * frame.u + T(covariance / deviation) * frame.v, T(sqrt(determinant) / deviation) * frame.v,
+            normal};
+}
+} // namespace detail
+
+/// The ellipse with covariance a aᵀ + b bᵀ + r² (I − n nᵀ): a disk of radius r added in quadrature, which is what
+/// a convolution does to second moments. Continuous through collapse: a point becomes the disk. r = 0 changes
+/// nothing but the choice of axis vectors.
+template <Vector3 V>
+[[nodiscard]] Ellipse<V> add_disk(const Ellipse<V>& ellipse, scalar_t<V> radius) {
+    using W = wider_t<scalar_t<V>>;
+    const auto a = detail::widened(ellipse.a), b = detail::widened(ellipse.b);
+    const W aa = detail::wide_dot(a, a), bb = detail::wide_dot(b, b), radius2 = square(W(radius));
+    const Frame<V> frame = detail::frame_along(aa >= bb ? ellipse.a : ellipse.b, ellipse.normal);
+    const auto u = detail::widened(frame.u), v = detail::widened(frame.v);
+    const W au = detail::wide_dot(a, u), bu = detail::wide_dot(b, u);
+    // det(A Aᵀ + r² I) = det(A)² + r² |A|² + r⁴: a sum of squares, so nothing cancels.
+    const W area = detail::wide_area(ellipse.a, ellipse.b, ellipse.normal);
+    const W determinant = square(area) + radius2 * (aa + bb) + square(radius2);
+    return detail::ellipse_of_covariance(frame, ellipse.normal, au * au + bu * bu + radius2,
+                                         au * detail::wide_dot(a, v) + bu * detail::wide_dot(b, v), determinant);
+}
+
+/// The ellipse of any number of tangents' displacements: their covariances add. Two give exactly `footprint`; a
+/// third (time, wavelength) stretches it by what that tangent sweeps over; four are an unaligned emission, whose
+/// octagon [Suykens and Willems 2001] this replaces by the ellipse with the same second moments.
+template <Vector3 V, std::size_t N>
+    requires(N >= 2)
+[[nodiscard]] Ellipse<V> footprint(const std::array<V, N>& d_position, const V& normal) {
+    if constexpr (N == 2) {
+        return footprint(d_position[0], d_position[1], normal);
+    } else {
+        using W = wider_t<scalar_t<V>>;
+        const auto shorter = [](const V& a, const V& b) { return length2(a) < length2(b); };
+        const Frame<V> frame =
+            detail::frame_along(*std::max_element(d_position.begin(), d_position.end(), shorter), normal);
+        const auto along = detail::widened(frame.u), across = detail::widened(frame.v);
+        W variance_u(0), covariance(0), determinant(0);
+        for (std::size_t i = 0; i < N; ++i) {
+            const auto d = detail::widened(d_position[i]);
+            const W u = W(0.5) * detail::wide_dot(d, along), v = W(0.5) * detail::wide_dot(d, across);
+            variance_u = variance_u + u * u;
+            covariance = covariance + u * v;
+            // Cauchy and Binet: the determinant is the sum over all pairs of their areas' squares.
+            for (std::size_t j = 0; j < i; ++j)
+                determinant = determinant + square(W(0.25) * detail::wide_area(d_position[i], d_position[j], normal));
+        }
+        return detail::ellipse_of_covariance(frame, normal, variance_u, covariance, determinant);
+    }
+}
+
+} // namespace nephroid

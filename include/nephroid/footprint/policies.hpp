@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+/// @file  What to do with footprints that are too thin or too long: policies, chosen at compile time.
+///
+/// A policy is called with the footprint before it is splatted and may change it or ask for its photon to be
+/// discarded; both are counted. A policy that is not chosen is not compiled.
+#pragma once
+
+#include "nephroid/footprint/ellipse.hpp"
+
+namespace nephroid {
+
+/// What a policy did with a footprint.
+enum class Verdict : unsigned char { kept, bounded, discarded };
+
+/// A policy: `policy(ellipse, limit)` may change the ellipse. `limit` is a length from the eye path map in world
+/// units: for a collapse policy the local spacing of its vertices, for an excess policy the diagonal of its bounds.
+template <class P, class V>
+concept FootprintPolicy = Vector3<V> && requires(const P policy, Ellipse<V>& ellipse, scalar_t<V> limit) {
+    { policy(ellipse, limit) } -> std::same_as<Verdict>;
+};
+
+/// Discards a footprint without area, as Frisvad et al. do, and keeps all others. With the pixel filter on, nothing
+/// ever collapses.
+struct DiscardCollapsed {
+    template <Vector3 V>
+    [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V>) const {
+        const scalar_t<V> inverse_area = scalar_t<V>(1) / area_scale(ellipse);
+        return isfinite(inverse_area) ? Verdict::kept : Verdict::discarded;
+    }
+};
+
+/// Widens a footprint whose minor radius is below `spacings` times the local spacing of the eye path vertices, so
+/// that none falls between them: for use without the pixel filter.
+struct WidenCollapsed {
+    double spacings = 0.5;
+    template <Vector3 V>
+    [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V> spacing) const {
+        using T = scalar_t<V>;
+        const T least = T(spacings) * spacing;
+        const auto sigma = radii(ellipse);
+        if (sigma.minor >= least)
+            return sigma.minor > T(0) ? Verdict::kept : Verdict::discarded;
+        ellipse = add_disk(ellipse, sqrt((least - sigma.minor) * (least + sigma.minor)));
+        return Verdict::bounded;
+    }
+};
+
+namespace detail {
+/// Shortens the ellipse along its major axis to this radius; the minor one stays, unless it is longer as well.
+template <Vector3 V>
+void shorten(Ellipse<V>& ellipse, const SingularValues<scalar_t<V>>& sigma, scalar_t<V> bound) {
+    using T = scalar_t<V>;
+    // The major axis is cos φ a + sin φ b with tan 2φ = 2 a·b / (a² − b²), over the major radius to stay in range.
+    const V a = T(1) / sigma.major * ellipse.a, b = T(1) / sigma.major * ellipse.b;
+    using std::atan2;
+    const T phi = T(0.5) * atan2(T(2) * dot(a, b), length2(a) - length2(b));
+    const V axis = normalize(V(cos(phi) * a + sin(phi) * b));
+    ellipse.a = bound * axis;
+    ellipse.b = (std::min)(sigma.minor, bound) * cross(ellipse.normal, axis);
+}
+} // namespace detail
+
+/// Bounds the major radius at `diagonals` times the diagonal of the eye path map's bounds: a grazing photon's
+/// footprint may reach across the whole scene, but not be endless. Its flux is kept, unless the radius is beyond the
+/// scalar's range. The default.
+struct BoundMajorRadius {
+    double diagonals = 1;
+    template <Vector3 V>
+    [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V> diagonal) const {
+        using T = scalar_t<V>;
+        const T bound = T(diagonals) * diagonal;
+        const auto sigma = radii(ellipse);
+        if (sigma.major <= bound || !(bound > T(0)))
+            return Verdict::kept;
+        if (!isfinite(sigma.major))
+            return Verdict::discarded;
+        detail::shorten(ellipse, sigma, bound);
+        return Verdict::bounded;
+    }
+};
+
+/// Discards a photon whose major radius exceeds that bound.
+struct DiscardExcess {
+    double diagonals = 1;
+    template <Vector3 V>
+    [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V> diagonal) const {
+        const scalar_t<V> bound = scalar_t<V>(diagonals) * diagonal;
+        return radii(ellipse).major <= bound || !(bound > scalar_t<V>(0)) ? Verdict::kept : Verdict::discarded;
+    }
+};
+
+/// Replaces a footprint whose major radius exceeds that bound by a disk of radius `radius`, world units: the
+/// fallback to a fixed (or progressively shrinking) radius of De Barro et al. 2025.
+struct FallBackToDisk {
+    double radius;
+    double diagonals = 1;
+    template <Vector3 V>
+    [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V> diagonal) const {
+        using T = scalar_t<V>;
+        const T bound = T(diagonals) * diagonal;
+        if (radii(ellipse).major <= bound || !(bound > T(0)))
+            return Verdict::kept;
+        const Frame<V> frame = frame_about(ellipse.normal);
+        ellipse = {T(radius) * frame.u, T(radius) * frame.v, ellipse.normal};
+        return Verdict::bounded;
+    }
+};
+
+} // namespace nephroid
