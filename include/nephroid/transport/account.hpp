@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+/// @file  Where all the light went: every unit of emitted flux, by reason.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace nephroid {
+
+/// How a photon's flux ends.
+enum class Fate : unsigned char {
+    splatted,   ///< onto leaves of the eye path map that the footprint's box overlaps and that face the photon
+    unseen,     ///< on a diffuse surface, but nowhere near eye path vertices on the photon's side
+    direct,     ///< on a diffuse surface without having met a specular one: direct light, not a caustic
+    absorbed,   ///< by surfaces and media, or reflected where only refraction is followed
+    escaped,    ///< out of the scene
+    terminated, ///< at the bound on a path's length, or by Russian roulette (net of what survivors gain)
+    collapsed,  ///< discarded by the collapse policy
+    excessive,  ///< discarded by the excess policy
+    invalid,    ///< a number on the path was not finite, or the last ray ran parallel to its surface
+};
+
+inline constexpr std::size_t fate_count = 9;
+inline constexpr std::array<const char*, fate_count> fate_names = {
+    "splatted", "unseen", "direct", "absorbed", "escaped", "terminated", "collapsed", "excessive", "invalid"};
+
+/// A number of photons and their flux, in the unit of flux_traits<F>::power.
+struct Tally {
+    std::uint64_t photons = 0;
+    double flux = 0;
+
+    Tally& operator+=(const Tally& other) {
+        photons += other.photons;
+        flux += other.flux;
+        return *this;
+    }
+};
+
+/// What every pass returns. Flux is never lost silently: `emitted.flux` is the sum of `[fate].flux` over all fates
+/// to the rounding of double.
+struct Statistics {
+    Tally emitted;
+    std::array<Tally, fate_count> fates{};
+    std::uint64_t rays = 0;              ///< traced
+    std::uint64_t specular_events = 0;   ///< reflections and refractions
+    std::uint64_t corrected_normals = 0; ///< events that used the geometric normal, as the shading one sent the ray
+                                         ///< through the wrong side of the surface
+    std::uint64_t bounded_footprints = 0; ///< made smaller by the excess policy, or larger by the collapse policy
+
+    [[nodiscard]] const Tally& operator[](Fate fate) const { return fates[std::size_t(fate)]; }
+
+    /// Photons that reached a diffuse surface through a specular one: n as the papers count it.
+    [[nodiscard]] std::uint64_t caustic_photons() const {
+        return (*this)[Fate::splatted].photons + (*this)[Fate::unseen].photons + (*this)[Fate::collapsed].photons +
+               (*this)[Fate::excessive].photons;
+    }
+
+    [[nodiscard]] double accounted_flux() const {
+        double sum = 0;
+        for (const Tally& tally : fates)
+            sum += tally.flux;
+        return sum;
+    }
+
+    /// One photon ends with this flux.
+    void end(Fate fate, double flux) {
+        Tally& tally = fates[std::size_t(fate)];
+        ++tally.photons;
+        tally.flux += flux;
+    }
+
+    /// A photon that goes on loses this flux.
+    void lose(Fate fate, double flux) { fates[std::size_t(fate)].flux += flux; }
+
+    Statistics& operator+=(const Statistics& other) {
+        emitted += other.emitted;
+        for (std::size_t i = 0; i < fate_count; ++i)
+            fates[i] += other.fates[i];
+        rays += other.rays;
+        specular_events += other.specular_events;
+        corrected_normals += other.corrected_normals;
+        bounded_footprints += other.bounded_footprints;
+        return *this;
+    }
+};
+
+} // namespace nephroid

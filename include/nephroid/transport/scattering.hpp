@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a surface does with a photon.
+#pragma once
+
+#include "nephroid/emission/flux.hpp"
+
+namespace nephroid {
+
+enum class Event : unsigned char {
+    absorb,  ///< the photon ends
+    reflect, ///< mirror reflection
+    refract, ///< into the other medium; beyond the critical angle the walk reflects instead
+    deposit, ///< the surface is diffuse (or glossy): the photon is splatted here and ends
+};
+
+/// The answer of a scene's `scatter`. Your own type with these members will do as well; `eta` is only read for
+/// Event::refract, and a type may have a further member `medium` (the one that a refracted ray enters, for scenes
+/// with absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent).
+template <Flux F, Scalar T>
+struct Scattering {
+    Event event = Event::absorb;
+    F weight = flux_traits<F>::zero(); ///< the flux is multiplied by this: reflectance over the event's probability
+    T eta = T(1);                      ///< n₁/n₂, the index on the ray's side over that on the other side
+
+    [[nodiscard]] static Scattering absorb() { return {}; }
+    [[nodiscard]] static Scattering deposit() { return {Event::deposit, flux_traits<F>::zero(), T(1)}; }
+    [[nodiscard]] static Scattering reflect(const F& weight) { return {Event::reflect, weight, T(1)}; }
+    [[nodiscard]] static Scattering refract(const F& weight, T eta) { return {Event::refract, weight, eta}; }
+};
+
+} // namespace nephroid

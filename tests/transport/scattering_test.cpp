@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "nephroid/transport/scattering.hpp"
+
+#include "nephroid/vector/glm.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace nephroid;
+
+TEST_CASE("scattering: is made by the name of what happens") {
+    using S = Scattering<glm::vec3, double>;
+    const glm::vec3 half{0.5f, 0.25f, 1};
+    CHECK(S::absorb().event == Event::absorb);
+    CHECK(S::deposit().event == Event::deposit);
+    CHECK(S::reflect(half).event == Event::reflect);
+    CHECK(S::reflect(half).weight == half);
+    CHECK(S::refract(half, 1.5).event == Event::refract);
+    CHECK(S::refract(half, 1.5).weight == half);
+    CHECK(S::refract(half, 1.5).eta == 1.5);
+    CHECK(S::reflect(half).eta == 1);
+}
+
+TEST_CASE("scattering: a forgotten answer absorbs without a gain") {
+    const Scattering<float, float> forgotten;
+    CHECK(forgotten.event == Event::absorb);
+    CHECK(forgotten.weight == 0);
+}
