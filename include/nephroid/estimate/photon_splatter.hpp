@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+/// @file  Splatting onto an eye path map: batches of photons, binned by leaf, each leaf summed by one thread.
+///
+/// A leaf adds up its photons in the order of their indices whoever runs it, so that the sums are the same bit for
+/// bit for any number of threads, without atomics or locks, and its vertices stay in cache.
+#pragma once
+
+#include "nephroid/estimate/splat.hpp"
+#include "nephroid/transport/executor.hpp"
+
+#include <type_traits>
+
+namespace nephroid {
+
+/// The vertices' response does not depend on where light comes from (diffuse surfaces): what is summed up is
+/// irradiance, which the caller multiplies with throughput · albedo / π.
+struct Irradiance {};
+
+/// Sums up photons at the vertices of an eye path map [Frisvad et al. 2014, eq. 10].
+///
+/// @tparam V         vector
+/// @tparam F         flux; the sums are F per world unit squared
+/// @tparam Policies  `SplatPolicies<…>`
+/// @tparam Response  Irradiance, or a callable (vertex index, photon direction) -> a factor for the photon's
+///                   irradiance there: the BRDF f_r(x, −ω_p, ω) times the path's throughput; what is summed is then
+///                   radiance. Called from several threads at once.
+template <Vector3 V, Flux F, class Policies = SplatPolicies<>, class Response = Irradiance>
+    requires ScalesFlux<F, scalar_t<V>>
+class PhotonSplatter {
+public:
+    using T = scalar_t<V>;
+    using vector = V;
+    using flux_type = F;
+
+    /// @param map  is referred to, and must outlive the splatter
+    explicit PhotonSplatter(const EyePathMap<V>& map, Policies policies = {}, Response response = {})
+        : map_(&map), policies_(std::move(policies)), response_(std::move(response)) {
+        clear();
+    }
+    explicit PhotonSplatter(const EyePathMap<V>&&, Policies = {}, Response = {}) = delete; // would refer to a temporary
+
+    [[nodiscard]] const EyePathMap<V>& map() const { return *map_; }
+    [[nodiscard]] const Policies& policies() const { return policies_; }
+
+    /// Forgets all photons.
+    void clear() { sums_.assign(map_->tree().slots(), flux_traits<F>::zero()); }
+
+    /// Photons of one chunk, in the order of their indices, on their way into the map.
+    class Chunk {
+    public:
+        /// Splats a deposit; its flux is booked in the account under what became of it.
+        template <std::size_t N>
+        void add(const PhotonSplatter& splatter, const Deposit<V, F, N>& deposit, Statistics& account) {
+            const auto outcome = make_splat(deposit, *splatter.map_, splatter.policies_);
+            account.bounded_footprints += outcome.bounded;
+            Fate fate = outcome.fate;
+            if (outcome.splat) {
+                const std::size_t before = leaves_.size();
+                const auto number = std::uint32_t(splats_.size());
+                splatter.map_->tree().visit_leaves(outcome.splat->box, [&](std::uint32_t leaf) {
+                    if (splatter.facing(leaf, *outcome.splat) < 0)
+                        return;
+                    leaves_.push_back(leaf);
+                    numbers_.push_back(number);
+                });
+                if (leaves_.size() == before)
+                    fate = Fate::unseen;
+                else
+                    splats_.push_back(*outcome.splat);
+            }
+            account.end(fate, double(flux_traits<F>::power(deposit.flux)));
+        }
+
+        void clear() {
+            splats_.clear();
+            leaves_.clear();
+            numbers_.clear();
+        }
+
+        /// How many times a leaf is met by a splat.
+        [[nodiscard]] std::size_t visits() const { return leaves_.size(); }
+
+    private:
+        friend PhotonSplatter;
+        std::vector<Splat<V, F>> splats_;
+        std::vector<std::uint32_t> leaves_, numbers_; // pairs: this leaf is met by the splat with this number
+    };
+
+    /// Adds the photons of consecutive chunks, in order.
+    template <class E>
+        requires Executor<E&>
+    void add(std::span<const Chunk> chunks, E& executor) {
+        bin(chunks);
+        constexpr std::size_t leaves_per_task = 16;
+        const std::size_t leaves = map_->tree().leaves().size();
+        executor((leaves + leaves_per_task - 1) / leaves_per_task, [&](std::size_t task) {
+            const std::size_t end = (std::min)(leaves, (task + 1) * leaves_per_task);
+            for (std::size_t leaf = task * leaves_per_task; leaf < end; ++leaf)
+                for (std::size_t i = bin_begin_[leaf]; i < bin_begin_[leaf + 1]; ++i)
+                    splat_leaf(*bins_[i], std::uint32_t(leaf));
+        });
+    }
+
+    /// Calls sink(vertex index, sum) once for every vertex, in the map's order, with the irradiance (or radiance)
+    /// of all photons since the last `clear`.
+    template <class Sink>
+        requires std::invocable<Sink&, std::size_t, const F&>
+    void for_each(Sink&& sink) const {
+        for (const TreeLeaf& leaf : map_->tree().leaves())
+            for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
+                sink(std::size_t(map_->tree().index(slot)), sums_[slot]);
+    }
+
+private:
+    /// Sorts the chunks' splats by leaf, keeping the photons' order: a counting sort.
+    void bin(std::span<const Chunk> chunks) {
+        bin_begin_.assign(map_->tree().leaves().size() + 1, 0);
+        for (const Chunk& chunk : chunks)
+            for (const std::uint32_t leaf : chunk.leaves_)
+                ++bin_begin_[leaf + 1];
+        for (std::size_t leaf = 1; leaf < bin_begin_.size(); ++leaf)
+            bin_begin_[leaf] += bin_begin_[leaf - 1];
+        bins_.resize(bin_begin_.back());
+        bin_end_ = bin_begin_;
+        for (const Chunk& chunk : chunks)
+            for (std::size_t i = 0; i < chunk.leaves_.size(); ++i)
+                bins_[bin_end_[chunk.leaves_[i]]++] = &chunk.splats_[chunk.numbers_[i]];
+    }
+
+    /// Whether the vertices of a leaf face the photon: +1 all do, -1 none does, 0 some may.
+    [[nodiscard]] int facing(std::uint32_t leaf, const Splat<V, F>& splat) const {
+        using t = vector_traits<V>;
+        const Box<T>& normals = map_->leaf(leaf).normals;
+        const std::array<T, 3> n = {t::x(splat.normal), t::y(splat.normal), t::z(splat.normal)};
+        T least(0), most(0);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const T a = n[axis] * normals.low[axis], b = n[axis] * normals.high[axis];
+            least = least + (std::min)(a, b);
+            most = most + (std::max)(a, b);
+        }
+        return least > T(0) ? 1 : most > T(0) ? 0 : -1;
+    }
+
+    /// Adds one photon to the vertices of one leaf.
+    void splat_leaf(const Splat<V, F>& splat, std::uint32_t leaf) {
+        using t = vector_traits<V>;
+        constexpr std::size_t most = PointTree<V>::leaf_size;
+        const TreeLeaf range = map_->tree().leaves()[leaf];
+        const std::size_t lanes = PointTree<V>::lanes;
+        const std::size_t size = (range.size + lanes - 1) / lanes * lanes;
+        std::array<T, most> weight;
+        const T* const x = map_->tree().x() + range.first;
+        const T* const y = map_->tree().y() + range.first;
+        const T* const z = map_->tree().z() + range.first;
+        const T cx = t::x(splat.centre), cy = t::y(splat.centre), cz = t::z(splat.centre);
+        const T ax = t::x(splat.row_a), ay = t::y(splat.row_a), az = t::z(splat.row_a);
+        const T bx = t::x(splat.row_b), by = t::y(splat.row_b), bz = t::z(splat.row_b);
+        const T nx = t::x(splat.row_n), ny = t::y(splat.row_n), nz = t::z(splat.row_n);
+        const auto kernel = policies_.kernel;
+        for (std::size_t i = 0; i < size; ++i) {
+            const T dx = x[i] - cx, dy = y[i] - cy, dz = z[i] - cz;
+            const T a = ax * dx + ay * dy + az * dz;
+            const T b = bx * dx + by * dy + bz * dz;
+            const T off = nx * dx + ny * dy + nz * dz;
+            weight[i] = keep_if(off * off < T(1), kernel(a * a + b * b));
+        }
+        if (facing(leaf, splat) == 0) {
+            const T px = t::x(splat.normal), py = t::y(splat.normal), pz = t::z(splat.normal);
+            const T* const mx = map_->normal_x() + range.first;
+            const T* const my = map_->normal_y() + range.first;
+            const T* const mz = map_->normal_z() + range.first;
+            for (std::size_t i = 0; i < size; ++i)
+                weight[i] = keep_if(mx[i] * px + my[i] * py + mz[i] * pz > T(0), weight[i]);
+        }
+
+        F* const sum = sums_.data() + range.first;
+        if constexpr (std::is_same_v<Response, Irradiance>) {
+            const F peak = splat.peak;
+            for (std::size_t i = 0; i < size; ++i)
+                sum[i] = sum[i] + peak * weight[i];
+        } else {
+            for (std::size_t i = 0; i < range.size; ++i)
+                if (weight[i] > T(0))
+                    sum[i] = sum[i] + splat.peak * weight[i] *
+                                          response_(std::size_t(map_->tree().index(range.first + i)), splat.direction);
+        }
+    }
+
+    const EyePathMap<V>* map_;
+    Policies policies_;
+    Response response_;
+    std::vector<F> sums_;                      // by slot
+    std::vector<std::size_t> bin_begin_, bin_end_;
+    std::vector<const Splat<V, F>*> bins_;
+};
+
+} // namespace nephroid
