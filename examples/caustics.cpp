@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/// @file  Renders a caustic, built-in or from a glTF file, by photon differential splatting and says how wrong it is.
+#include "common/caustics/builtin.hpp"
+#include "common/caustics/file_scene.hpp"
+#include "common/image/file.hpp"
+#include "common/image/png.hpp"
+#include "common/image/write.hpp"
+
+#include <exception>
+#include <iostream>
+
+int main(int argc, char** argv) {
+    using namespace nephroid::examples;
+    try {
+        auto options = read_options(argc, argv);
+        if (!options)
+            return 0;
+        require_writable_image(options->output);
+        if (options->json)
+            require_writable(*options->json);
+
+        const Rendering rendering = is_builtin(options->scene) ? render_builtin(*options) : render_file(*options);
+        write_image(options->output, rendering.picture, rendering.exposure);
+        if (options->json)
+            write_file(*options->json, json_text(*options, rendering.report));
+        print_table(std::cout, *options, rendering.report);
+        std::cout << "picture: " << options->output.string() << '\n';
+        return 0;
+    } catch (const UsageError& error) {
+        std::cerr << "caustics: " << error.what() << '\n';
+        return 2;
+    } catch (const std::exception& error) {
+        std::cerr << "caustics: " << error.what() << '\n';
+        return 1;
+    }
+}

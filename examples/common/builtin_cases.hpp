@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+/// @file  The scenes whose caustics are known exactly: a water wave, a ring, a ball of glass.
+#pragma once
+
+#include "common/scene.hpp"
+
+#include "nephroid/emission/light/directional.hpp"
+#include "nephroid/emission/light/point.hpp"
+#include "nephroid/emission/light_set.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace nephroid::examples {
+
+/// A rectangle of the floor z = 0 that is looked at from above.
+struct FilmRectangle {
+    double x_min, x_max;
+    double y_min, y_max;
+};
+
+/// Sunlight aimed at the ring's mirror exactly: as seen along the light the half cylinder is no parallelogram, but its
+/// silhouette in the upright plane x = -1/16 is the rectangle |y| < 1, 0 < z < height, each column raised by what the
+/// light falls on its way, and that keeps areas.
+template <class T, Flux F>
+class RingBeam {
+public:
+    using vector = Vec3<T>;
+    using flux_type = F;
+
+    struct Options {
+        T elevation; ///< of the sun, radians
+        T height;    ///< of the mirror
+        F irradiance; ///< on horizontal planes
+    };
+
+    explicit RingBeam(const Options& options)
+        : direction_(std::cos(options.elevation), 0, -std::sin(options.elevation)),
+          slope_(std::tan(options.elevation)), height_(options.height),
+          power_(options.irradiance * (T(2) * options.height / slope_)),
+          basis_(aligned_basis(Vec3<T>(1, 0, 0), direction_)) {}
+
+    template <SampleSource<T> S>
+    [[nodiscard]] Photon<Vec3<T>, F> emit(S& samples, const Spread<T>& spread) const {
+        // The first sample, which sequences stratify best, goes along the longer side.
+        const T y = T(2) * samples.template next<T>() - T(1);
+        const T z = height_ * samples.template next<T>();
+        const T x = std::sqrt((T(1) - y) * (T(1) + y)), start = T(-1) / T(16);
+        const T d_length = spread.length(T(2) * height_);
+        const Vec3<T> zero(0);
+        return {Vec3<T>(start, y, z + (x - start) * slope_), direction_, power_ * (T(1) / spread.photons),
+                {Tangent<Vec3<T>>{d_length * basis_.u, zero}, Tangent<Vec3<T>>{d_length * basis_.v, zero}}};
+    }
+
+    [[nodiscard]] double power() const { return flux_traits<F>::power(power_); }
+
+private:
+    Vec3<T> direction_;
+    T slope_, height_;
+    F power_;
+    AlignedBasis<Vec3<T>> basis_;
+};
+
+/// The lights of the built-in cases.
+template <class T, Flux F>
+using CaseLight = LightSet<DirectionalLight<Vec3<T>, F>, PointLight<Vec3<T>, F>, RingBeam<T, F>>;
+
+/// A scene above the diffuse floor z = 0, its light, and where to look. The picture is the irradiance on the floor.
+template <class T, Flux F = Vec3<T>>
+struct BuiltinCase {
+    Scene<T, F> scene;
+    CaseLight<T, F> light;
+    FilmRectangle film;
+    bool periodic = false; ///< with period 1 along x and y; a hit on the floor is wrapped into the unit square, so a
+                           ///< footprint over its border needs eye vertices (ghosts) on the other side as well
+};
+
+inline constexpr std::array<std::string_view, 6> builtin_case_names = {"wave-focused", "wave-prefocal", "ring",
+                                                                       "ring-zoom",    "ball",          "ball-point"};
+
+namespace detail {
+
+template <class T, Flux F>
+[[nodiscard]] BuiltinCase<T, F> wave_case(T amplitude, bool fresnel) {
+    using Materials = std::vector<Material<F>>;
+    const typename SineWave<T>::Options wave{.height = 1, .amplitude = amplitude};
+    Scene<T, F> scene({{Floor<T>(0, 1), 0}, {SineWave<T>(wave), 1}},
+                      Materials{Material<F>::diffuse(grey<F>(1)),
+                                Material<F>::dielectric(1.33, fresnel, Follow::refraction)});
+    // Over the unit square, above the crests.
+    const DirectionalLight<Vec3<T>, F> sun({.direction = {0, 0, -1},
+                                            .irradiance = grey<F>(1),
+                                            .patch = Parallelogram<Vec3<T>>{{0, 0, T(1.25)}, {1, 0, 0}, {0, 1, 0}}});
+    return {std::move(scene), CaseLight<T, F>({sun}), {0, 1, 0, 1}, true};
+}
+
+template <class T, Flux F>
+[[nodiscard]] BuiltinCase<T, F> ring_case(FilmRectangle film) {
+    using Materials = std::vector<Material<F>>;
+    const T elevation = T(35) * pi<T> / T(180), height = T(0.5);
+    Scene<T, F> scene(
+        {{Floor<T>(0), 0}, {Cylinder<T>({.radius = 1, .height = height, .facing_x = 1, .least_cosine = 0}), 1}},
+        Materials{Material<F>::diffuse(grey<F>(1)), Material<F>::mirror(grey<F>(1))});
+    const RingBeam<T, F> sun({.elevation = elevation, .height = height, .irradiance = grey<F>(1)});
+    return {std::move(scene), CaseLight<T, F>({sun}), film, false};
+}
+
+template <class T, Flux F>
+[[nodiscard]] BuiltinCase<T, F> ball_case(bool point, bool fresnel) {
+    using Materials = std::vector<Material<F>>;
+    const Vec3<T> center(0, 0, T(1.25));
+    Scene<T, F> scene({{Floor<T>(0), 0}, {Sphere<T>(center, 1), 1}},
+                      Materials{Material<F>::diffuse(grey<F>(1)),
+                                Material<F>::dielectric(1.5, fresnel, Follow::refraction)});
+    const BoundingSphere<Vec3<T>> ball{center, 1};
+    std::vector<typename CaseLight<T, F>::AnyLight> light;
+    if (point)
+        light.push_back(PointLight<Vec3<T>, F>(
+            {.position = {0, 0, T(5.25)}, .intensity = grey<F>(16), .target = ball}));
+    else
+        light.push_back(
+            DirectionalLight<Vec3<T>, F>({.direction = {0, 0, -1}, .irradiance = grey<F>(1), .patch = ball}));
+    return {std::move(scene), CaseLight<T, F>(std::move(light)), {-0.5, 0.5, -0.5, 0.5}, false};
+}
+
+} // namespace detail
+
+/// @param name     one of `builtin_case_names`; nothing comes back for another one
+/// @param fresnel  whether water and glass reflect a part of the light away (it is absorbed: what is known exactly are
+///                 the caustics of refracted light alone)
+/// The ring's number of reflections is a limit on the walk, not on the scene.
+template <class T, Flux F = Vec3<T>>
+[[nodiscard]] std::optional<BuiltinCase<T, F>> builtin_case(std::string_view name, bool fresnel) {
+    if (name == "wave-focused")
+        return detail::wave_case<T, F>(T(0.04), fresnel);
+    if (name == "wave-prefocal")
+        return detail::wave_case<T, F>(T(0.012), fresnel);
+    if (name == "ring")
+        return detail::ring_case<T, F>({-0.1, 2.1, -1.1, 1.1});
+    if (name == "ring-zoom")
+        return detail::ring_case<T, F>({0.1, 0.9, -0.4, 0.4});
+    if (name == "ball")
+        return detail::ball_case<T, F>(false, fresnel);
+    if (name == "ball-point")
+        return detail::ball_case<T, F>(true, fresnel);
+    return std::nullopt;
+}
+
+} // namespace nephroid::examples

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+/// @file  What the program `caustics` is asked to do.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+namespace nephroid::examples {
+
+enum class SequenceKind { halton, sobol, random };
+enum class KernelKind { biweight, epanechnikov, cone, uniform, gaussian };
+enum class Layer { all, caustics, direct };
+
+struct Options {
+    std::string scene;                                ///< the name of a built-in case or a .glb or .gltf file
+    std::uint64_t photons = 20'000;                   ///< caustic photons wanted
+    std::optional<std::uint64_t> emit;                ///< photons to emit, instead
+    double smoothing = 8;                             ///< s
+    std::size_t width = 512, height = 512;            ///< pixels
+    bool height_given = false;                        ///< else a file's camera chooses it
+    unsigned samples = 1;                             ///< eye paths per pixel
+    KernelKind kernel = KernelKind::biweight;
+    SequenceKind sequence = SequenceKind::halton;
+    std::uint64_t seed = 0;
+    unsigned threads = 0;                             ///< 0: as many as the machine has
+    bool pixel_filter = true;
+    bool fresnel = false;                             ///< of the built-in cases; materials of a file always have it
+    bool one_reflection = false;                      ///< of the ring: discard what would be reflected twice
+    std::optional<std::array<double, 4>> view;        ///< x_min, x_max, y_min, y_max of a built-in case's film
+    Layer layer = Layer::all;                         ///< of a file's picture
+    std::filesystem::path output;                     ///< the picture: .exr, .pfm or .png
+    std::optional<std::filesystem::path> json;        ///< the statistics
+};
+
+/// A command line that cannot be done; `what()` is one line.
+struct UsageError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// Reads the command line.
+/// @return  nothing if it asked for help, which has then been printed
+/// Throws UsageError.
+[[nodiscard]] std::optional<Options> read_options(int argc, const char* const* argv);
+
+[[nodiscard]] const char* name_of(SequenceKind sequence);
+[[nodiscard]] const char* name_of(KernelKind kernel);
+
+} // namespace nephroid::examples

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+/// @file  What `caustics` says at the end: the table on the terminal, and the same as JSON.
+#pragma once
+
+#include "common/caustics/options.hpp"
+
+#include "nephroid/transport/account.hpp"
+
+#include <iosfwd>
+#include <vector>
+
+namespace nephroid::examples {
+
+/// Against the exact picture (mathematics.md's measures).
+struct Errors {
+    double relative = 0; ///< rms(E - E_ref) / mean(E_ref)
+    double rmse = 0;     ///< of the exposed and clipped pictures
+    double ssim = 0;     ///< of the same; NaN for pictures smaller than its window
+    double energy = 0;   ///< sum(E) / sum(E_ref) - 1
+};
+
+/// Seconds of wall clock, pass by pass; `other` is what happens between them.
+struct Timings {
+    double eye_paths = 0, map = 0, pilot = 0, trace = 0, splat = 0, direct = 0, total = 0;
+    [[nodiscard]] double other() const { return total - eye_paths - map - pilot - trace - splat - direct; }
+};
+
+struct Report {
+    Statistics statistics;
+    Timings seconds;
+    std::size_t eye_vertices = 0;
+    unsigned threads = 1;
+    std::optional<Errors> errors;   ///< where the truth is known
+    std::vector<std::string> notes; ///< on what is shown otherwise than the scene says
+};
+
+void print_table(std::ostream& out, const Options& options, const Report& report);
+
+/// @return  the report as a JSON object
+[[nodiscard]] std::string json_text(const Options& options, const Report& report);
+
+} // namespace nephroid::examples

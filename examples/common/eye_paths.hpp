@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+/// @file  What the camera sees: rays followed through mirrors and glass to diffuse surfaces, and to what shines.
+#pragma once
+
+#include "common/camera.hpp"
+#include "common/scene.hpp"
+
+#include "nephroid/differential/reflection.hpp"
+#include "nephroid/differential/refraction.hpp"
+#include "nephroid/transport/executor.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+namespace nephroid::examples {
+
+/// A point of a diffuse surface that a pixel sees. Irradiance there times `weight` is what the pixel gets.
+template <class T, Flux F>
+struct EyeVertex {
+    Vec3<T> position;
+    Vec3<T> normal;         ///< geometric, unit, on the side that is seen
+    Vec3<T> shading_normal; ///< unit, on the same side
+    T position_error;       ///< bound on the distance from the surface
+    std::uint32_t pixel;    ///< y * width + x, row 0 at the bottom
+    F weight;               ///< throughput of the path from the camera × albedo/π / samples, 1 / steradian
+};
+
+struct EyePathOptions {
+    unsigned samples = 1;       ///< for each pixel, > 0
+    unsigned max_depth = 16;    ///< reflections and refractions on one path
+    double least_weight = 1e-3; ///< a path whose throughput falls below it ends
+    std::uint64_t seed = 0;
+};
+
+template <class T, Flux F>
+struct EyePaths {
+    std::vector<EyeVertex<T, F>> vertices; ///< by pixel, in an order that depends on nothing but the arguments
+    std::vector<F> emitted;                ///< radiance of emitters as each pixel sees them
+    std::size_t rays = 0;
+};
+
+namespace detail {
+
+/// A path that has come to a surface, or starts at the camera.
+template <class T, Flux F>
+struct EyePath {
+    Vec3<T> origin, direction;
+    F throughput;
+    Medium medium;
+    unsigned depth;
+};
+
+/// Follows one camera ray. Glass splits it in two.
+template <class T, Flux F>
+class EyePathTracer {
+public:
+    EyePathTracer(const Scene<T, F>& scene, const EyePathOptions& options, EyePaths<T, F>& result)
+        : scene_(scene), options_(options), result_(result) {}
+
+    /// @param first_pixel  the one that `emitted` starts with in the result
+    void trace(const Ray<T>& ray, std::uint32_t pixel, std::size_t first_pixel) {
+        pending_.assign(1, {ray.origin, ray.direction, grey<F>(1), {}, 0});
+        while (!pending_.empty()) {
+            EyePath<T, F> path = pending_.back();
+            pending_.pop_back();
+            ++result_.rays;
+            const auto hit = scene_.intersect(path.origin, path.direction, T(0), std::numeric_limits<T>::infinity());
+            if (!hit)
+                continue;
+            path.throughput = path.throughput * scene_.transmittance(path.medium, hit->distance);
+
+            const Material<F>& material = scene_.material(*hit);
+            const bool from_front = dot(path.direction, hit->geometric_normal) < T(0);
+            if (material.emits() && (from_front || material.emits_on_both_sides)) {
+                F& emitted = result_.emitted[pixel - first_pixel];
+                emitted = emitted + path.throughput * material.emission * grey<F>(1.0 / options_.samples);
+            }
+            if (material.surface == Surface::diffuse)
+                see(*hit, path, pixel, from_front ? T(1) : T(-1));
+            else if (material.is_specular() && path.depth < options_.max_depth)
+                bend(*hit, path, from_front ? T(1) : T(-1));
+        }
+    }
+
+private:
+    void see(const Hit<T>& hit, const EyePath<T, F>& path, std::uint32_t pixel, T side) {
+        const double share = 1 / (double(pi<T>) * options_.samples);
+        const F weight = path.throughput * scene_.material(hit).color * grey<F>(share);
+        if (flux_traits<F>::power(weight) > 0)
+            result_.vertices.push_back({hit.position, side * hit.geometric_normal, side * hit.shading_normal,
+                                        hit.position_error, pixel, weight});
+    }
+
+    /// @param side  of the surface that the ray comes from, 1 or -1
+    void bend(const Hit<T>& hit, const EyePath<T, F>& path, T side) {
+        const Material<F>& material = scene_.material(hit);
+        const Vec3<T> facing = side * hit.geometric_normal;
+        const Vec3<T> normal =
+            dot(path.direction, side * hit.shading_normal) < T(0) ? side * hit.shading_normal : facing;
+
+        if (material.surface != Surface::dielectric) {
+            reflect(hit, path, normal, facing, scene_.reflectance(material, hit, path.direction));
+            return;
+        }
+        const Interface<T> at = scene_.interface(material, hit, path.direction);
+        const T reflected = scene_.reflectance(material, at);
+        if (reflected > T(0) && material.follow == Follow::both)
+            reflect(hit, path, normal, facing, grey<F>(double(reflected)));
+        if (reflected < T(1))
+            if (const auto refraction = nephroid::refraction(path.direction, normal, at.eta)) {
+                // Radiance over the square of the index is what passes unchanged.
+                const Bounce<T, F> through = scene_.refracted(hit, at, (T(1) - reflected) * at.eta * at.eta);
+                go_on(hit, path, refraction->direction(), dot(refraction->direction(), facing) < T(0), through.weight,
+                      through.medium);
+            }
+    }
+
+    void reflect(const Hit<T>& hit, const EyePath<T, F>& path, const Vec3<T>& normal, const Vec3<T>& facing,
+                 const F& weight) {
+        Vec3<T> direction = Reflection<Vec3<T>>(path.direction, normal).direction();
+        if (!(dot(direction, facing) > T(0))) // the shading normal sent it into the surface
+            direction = Reflection<Vec3<T>>(path.direction, facing).direction();
+        go_on(hit, path, direction, dot(direction, facing) > T(0), weight, path.medium);
+    }
+
+    void go_on(const Hit<T>& hit, const EyePath<T, F>& path, const Vec3<T>& direction, bool leaves, const F& weight,
+               Medium medium) {
+        const F throughput = path.throughput * weight;
+        if (!leaves || !(flux_traits<F>::power(throughput) >= options_.least_weight))
+            return;
+        const T off = (dot(direction, hit.geometric_normal) > T(0) ? T(2) : T(-2)) * hit.position_error;
+        pending_.push_back({hit.position + off * hit.geometric_normal, direction, throughput, medium, path.depth + 1});
+    }
+
+    const Scene<T, F>& scene_;
+    const EyePathOptions& options_;
+    EyePaths<T, F>& result_;
+    std::vector<EyePath<T, F>> pending_;
+};
+
+} // namespace detail
+
+/// Follows the camera's rays through the scene. Both branches of glass are followed, until their weight is small.
+///
+/// @param executor  the result does not depend on it
+template <class T, Flux F, Executor E>
+[[nodiscard]] EyePaths<T, F> trace_eye_paths(const Scene<T, F>& scene, const Camera<T>& camera,
+                                             const EyePathOptions& options, E&& executor) {
+    constexpr std::size_t chunk = 512; // pixels
+    const std::size_t pixels = camera.width() * camera.height();
+    std::vector<EyePaths<T, F>> parts((pixels + chunk - 1) / chunk);
+    executor(parts.size(), [&](std::size_t part) {
+        const std::size_t first = part * chunk, last = (std::min)(first + chunk, pixels);
+        parts[part].emitted.resize(last - first, flux_traits<F>::zero());
+        detail::EyePathTracer<T, F> tracer(scene, options, parts[part]);
+        for (std::size_t pixel = first; pixel < last; ++pixel)
+            for (unsigned k = 0; k < options.samples; ++k) {
+                const PixelOffset<T> at = pixel_sample<T>(pixel, k, options.samples, options.seed);
+                const Ray<T> ray = camera.ray(T(pixel % camera.width()) + at.x, T(pixel / camera.width()) + at.y);
+                tracer.trace(ray, static_cast<std::uint32_t>(pixel), first);
+            }
+    });
+
+    EyePaths<T, F> all;
+    std::size_t vertices = 0;
+    for (const auto& part : parts)
+        vertices += part.vertices.size();
+    all.vertices.reserve(vertices);
+    all.emitted.reserve(pixels);
+    for (auto& part : parts) {
+        all.vertices.insert(all.vertices.end(), part.vertices.begin(), part.vertices.end());
+        all.emitted.insert(all.emitted.end(), part.emitted.begin(), part.emitted.end());
+        all.rays += part.rays;
+        part = {};
+    }
+    return all;
+}
+
+} // namespace nephroid::examples

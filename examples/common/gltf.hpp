@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+/// @file  A glTF 2.0 file (.gltf or .glb) as plain data in world space: triangle meshes, materials, lights and cameras.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace nephroid::examples {
+
+/// One primitive of one node that shows a mesh; a mesh that several nodes show comes once for each.
+struct MeshDescription {
+    std::string name; ///< of the node, or else of the mesh, or "mesh 3"
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals; ///< unit length, one for each position; empty: the triangles are flat
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< at least one; counter-clockwise seen from the front
+    std::size_t material = 0;                            ///< index into `SceneDescription::materials`
+};
+
+/// Colours are linear. The defaults are glTF's: a material without properties is a white, rough metal.
+struct MaterialDescription {
+    std::string name;
+    glm::vec3 base_color{1}; ///< in [0, 1]
+    float metallic = 1;      ///< in [0, 1]
+    float roughness = 1;     ///< in [0, 1]
+    float transmission = 0;  ///< in [0, 1]
+    float ior = 1.5f;        ///< >= 1, or 0: the specular-glossiness mode of KHR_materials_ior, Fresnel reflectance 1
+    bool has_volume = false; ///< KHR_materials_volume with a thickness: the mesh bounds a medium, else a thin wall
+    glm::vec3 attenuation_color{1}; ///< in [0, 1]: what is left after `attenuation_distance`
+    float attenuation_distance = std::numeric_limits<float>::infinity(); ///< > 0, world units
+    glm::vec3 emission{0}; ///< radiance: emissiveFactor times emissiveStrength
+    bool double_sided = false;
+};
+
+/// KHR_lights_punctual, with its units taken as radiometric.
+struct LightDescription {
+    enum class Kind { directional, point, spot };
+
+    std::string name;
+    Kind kind = Kind::directional;
+    glm::vec3 position{0};         ///< without meaning for a directional light
+    glm::vec3 direction{0, 0, -1}; ///< that the light travels in, unit length; without meaning for a point light
+    glm::vec3 intensity{1};        ///< color times intensity: W/m^2 across the beam if directional, else W/sr
+    float cos_inner = 1;           ///< of a spot: full intensity within this angle from `direction`; > cos_outer
+    float cos_outer = 0.70710678f; ///< of a spot: nothing beyond this angle
+    float range = std::numeric_limits<float>::infinity(); ///< the file's hint how far it reaches; > 0, world units
+};
+
+struct CameraDescription {
+    enum class Kind { perspective, orthographic };
+
+    std::string name;
+    Kind kind = Kind::perspective;
+    float yfov = 0.8f;           ///< of a perspective camera: the full vertical angle in radians, in (0, pi)
+    std::optional<float> aspect; ///< of a perspective camera: width over height, where the file says it
+    float xmag = 1; ///< of an orthographic camera: half its width in world units, > 0; a node's scale is ignored
+    float ymag = 1; ///< of an orthographic camera: half its height in world units, > 0; a node's scale is ignored
+    glm::vec3 position{0};
+    glm::vec3 right{1, 0, 0}; ///< unit length, as `up` and `forward`; the three are orthogonal
+    glm::vec3 up{0, 1, 0};
+    glm::vec3 forward{0, 0, -1}; ///< cross(up, right)
+};
+
+struct SceneDescription {
+    std::vector<MeshDescription> meshes;        ///< in the order of the node graph; may be empty
+    std::vector<MaterialDescription> materials; ///< those of the file; glTF's default at the end where a mesh needs it
+    std::vector<LightDescription> lights;
+    std::vector<CameraDescription> cameras;
+    std::vector<std::string> warnings; ///< what was left out or repaired, a line each
+};
+
+/// Reads the default scene of a file, or its first; without scenes every root node.
+///
+/// Read: triangles, strips and fans, accessors of every component type, sparse and interleaved ones, buffers inside the
+/// file, beside it and as data URIs, nested transforms (a mirroring one keeps the front in front), and the extensions
+/// KHR_lights_punctual, KHR_mesh_quantization, KHR_materials_transmission, _ior, _volume and _emissive_strength.
+/// Left out with a warning: points and lines, textures (images are not opened), opacity, animation, skins and morph
+/// targets. Triangles without area are dropped; normals of length zero are replaced by those of the triangles around.
+///
+/// Throws std::runtime_error, one line with the file, what is wrong and where, for anything that is not such a file:
+/// also for a required extension that is not read, an index or an accessor out of bounds, a vertex that is not finite,
+/// a primitive without triangles, nodes that form a cycle, and a scene that grows out of all proportion to its file by
+/// showing meshes again and again. Not checked: that the scene has anything in it to render.
+[[nodiscard]] SceneDescription read_gltf(const std::filesystem::path& path);
+
+/// Reads a file that is in memory already.
+///
+/// @param path  where it came from: it is named in messages, and buffers are looked for beside it
+/// Throws what `read_gltf` does.
+[[nodiscard]] SceneDescription parse_gltf(std::span<const unsigned char> file, const std::filesystem::path& path);
+
+} // namespace nephroid::examples

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// @file  A look over a glTF's JSON before tinygltf gets it, for what tinygltf does not guard against.
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+namespace nephroid::examples::gltf {
+
+struct JsonSurvey {
+    bool has_animations = false;
+    std::size_t buffers_without_uri = 0; ///< each takes a copy of the binary chunk
+};
+
+/// Renames in place the sections that are not read ("images" to "_mages"; the others are textures, samplers, skins and
+/// animations), so that tinygltf opens no image.
+///
+/// Fails if the text is nested so deeply that tinygltf's recursion could exhaust the stack, if there are so many
+/// materials that their memory is out of proportion, or if a section's name is spelt with escapes. Broken JSON is left
+/// for the parser to complain of.
+JsonSurvey prepare_json(std::span<char> text);
+
+} // namespace nephroid::examples::gltf

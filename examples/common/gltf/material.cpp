@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#include "common/gltf/material.hpp"
+
+#include "common/gltf/transform.hpp"
+
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace nephroid::examples::gltf {
+namespace {
+
+/// The properties of one extension of a material; those that are missing have their defaults.
+class Extension {
+public:
+    Extension(const tinygltf::Material& material, const char* name, std::string_view owner) : owner_(owner) {
+        const auto found = material.extensions.find(name);
+        if (found != material.extensions.end() && found->second.IsObject())
+            value_ = &found->second;
+    }
+
+    [[nodiscard]] bool has(const char* property) const { return value_ != nullptr && value_->Has(property); }
+
+    [[nodiscard]] float number(const char* property, float missing) const {
+        if (!has(property))
+            return missing;
+        const tinygltf::Value& value = value_->Get(property);
+        if (!value.IsNumber())
+            fail({owner_, " has a ", property, " that is not a number"});
+        return to_float(value.GetNumberAsDouble(), owner_, property);
+    }
+
+    [[nodiscard]] glm::vec3 color(const char* property, const glm::vec3& missing) const {
+        if (!has(property))
+            return missing;
+        const tinygltf::Value& value = value_->Get(property);
+        glm::vec3 result(0);
+        for (int i = 0; i < 3; ++i) {
+            if (!value.IsArray() || value.ArrayLen() != 3 || !value.Get(i).IsNumber())
+                fail({owner_, " has a ", property, " that is not three numbers"});
+            result[i] = to_float(value.Get(i).GetNumberAsDouble(), owner_, property);
+        }
+        return result;
+    }
+
+private:
+    const tinygltf::Value* value_ = nullptr;
+    std::string_view owner_;
+};
+
+/// Moves factors into [0, 1].
+class Clamp {
+public:
+    Clamp(std::string_view owner, Warnings& warnings) : owner_(owner), warnings_(warnings) {}
+
+    float operator()(float value, const char* property) const {
+        if (!(value >= 0 && value <= 1))
+            warnings_.add(std::string(owner_) + " has a " + property + " outside of 0 to 1; it is clamped");
+        return (std::clamp)(value, 0.f, 1.f);
+    }
+    glm::vec3 operator()(const glm::vec3& value, const char* property) const {
+        return {(*this)(value.x, property), (*this)(value.y, property), (*this)(value.z, property)};
+    }
+
+private:
+    std::string_view owner_;
+    Warnings& warnings_;
+};
+
+glm::vec3 color_from(const std::vector<double>& factors, std::string_view owner, std::string_view property) {
+    if (factors.size() < 3)
+        fail({owner, " has a ", property, " of ", std::to_string(factors.size()), " numbers"});
+    return {to_float(factors[0], owner, property), to_float(factors[1], owner, property),
+            to_float(factors[2], owner, property)};
+}
+
+bool is_textured(const tinygltf::Material& material) {
+    const auto& surface = material.pbrMetallicRoughness;
+    if (surface.baseColorTexture.index >= 0 || surface.metallicRoughnessTexture.index >= 0 ||
+        material.normalTexture.index >= 0 || material.emissiveTexture.index >= 0)
+        return true;
+    return std::any_of(material.extensions.begin(), material.extensions.end(), [](const auto& extension) {
+        return extension.second.Has("transmissionTexture") || extension.second.Has("thicknessTexture");
+    });
+}
+} // namespace
+
+MaterialDescription read_material(const tinygltf::Material& material, std::size_t index, Warnings& warnings) {
+    const std::string owner = named("material", index, material.name);
+    const Clamp clamp(owner, warnings);
+    const auto& surface = material.pbrMetallicRoughness;
+
+    MaterialDescription result;
+    result.name = material.name.empty() ? named("material", index, "") : material.name;
+    result.double_sided = material.doubleSided;
+    result.base_color = clamp(color_from(surface.baseColorFactor, owner, "baseColorFactor"), "baseColorFactor");
+    result.metallic = clamp(to_float(surface.metallicFactor, owner, "metallicFactor"), "metallicFactor");
+    result.roughness = clamp(to_float(surface.roughnessFactor, owner, "roughnessFactor"), "roughnessFactor");
+    if (is_textured(material))
+        warnings.add(owner + " has textures; only its factors are used");
+    if (material.alphaMode == "BLEND" || material.alphaMode == "MASK")
+        warnings.add(owner + " is partly transparent by its opacity, which is not read; it is taken as opaque");
+
+    const Extension transmission(material, "KHR_materials_transmission", owner);
+    result.transmission = clamp(transmission.number("transmissionFactor", 0), "transmissionFactor");
+
+    result.ior = Extension(material, "KHR_materials_ior", owner).number("ior", 1.5f);
+    if (result.ior != 0 && !(result.ior >= 1))
+        fail({owner, " has an ior of ", std::to_string(result.ior), "; it must be at least 1, or 0"});
+
+    const Extension volume(material, "KHR_materials_volume", owner);
+    result.has_volume = volume.number("thicknessFactor", 0) > 0;
+    result.attenuation_color = clamp(volume.color("attenuationColor", glm::vec3(1)), "attenuationColor");
+    const float distance = volume.number("attenuationDistance", result.attenuation_distance);
+    if (distance > 0)
+        result.attenuation_distance = distance;
+    else
+        warnings.add(owner + " has an attenuationDistance that is not above 0; it is taken as infinite");
+
+    const Extension emission(material, "KHR_materials_emissive_strength", owner);
+    result.emission = color_from(material.emissiveFactor, owner, "emissiveFactor");
+    const float strength = emission.number("emissiveStrength", 1);
+    for (int i = 0; i < 3; ++i) {
+        const double radiance = double{result.emission[i]} * double{strength};
+        if (radiance < 0)
+            fail({owner, " has a negative emission"});
+        result.emission[i] = to_float(radiance, owner, "emission");
+    }
+    return result;
+}
+
+} // namespace nephroid::examples::gltf

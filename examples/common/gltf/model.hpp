@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/// @file  From a file's bytes to tinygltf's model, which is then known to be complete, but not to be consistent.
+#pragma once
+
+#include "common/gltf/report.hpp"
+#include "common/gltf/tinygltf.hpp"
+
+#include <filesystem>
+#include <span>
+
+namespace nephroid::examples::gltf {
+
+/// Parses a .glb or .gltf, whichever the bytes are, and reads its buffers; images are not touched.
+///
+/// @param folder  where buffers that are files of their own are looked for
+/// Fails if it is broken, truncated, of another version, or requires an extension that is not read.
+[[nodiscard]] tinygltf::Model load_model(std::span<const unsigned char> file, const std::filesystem::path& folder,
+                                         Warnings& warnings);
+
+} // namespace nephroid::examples::gltf

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "common/image/exr.hpp"
+
+#include "common/image/file.hpp"
+
+#include <stdexcept>
+#include <string>
+
+#if defined(NEPHROID_EXAMPLES_HAS_OPENEXR)
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wpedantic"
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
+#elif defined(_MSC_VER)
+#pragma warning(push, 0)
+#endif
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfIO.h>
+#include <ImfOutputFile.h>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#elif defined(_MSC_VER)
+#pragma warning(pop)
+#endif
+
+namespace nephroid::examples {
+
+namespace {
+
+/// OpenEXR's output in memory, so that only `write_file` touches the disk.
+class MemoryStream final : public Imf::OStream {
+public:
+    MemoryStream() : OStream("memory") {}
+
+    void write(const char* data, int size) override {
+        const std::size_t end = position_ + static_cast<std::size_t>(size);
+        if (end > bytes_.size())
+            bytes_.resize(end);
+        std::copy_n(data, size, bytes_.data() + position_); // it goes back to fill in its table of offsets
+        position_ = end;
+    }
+    std::uint64_t tellp() override { return position_; }
+    void seekp(std::uint64_t position) override { position_ = static_cast<std::size_t>(position); }
+
+    [[nodiscard]] const std::string& bytes() const { return bytes_; }
+
+private:
+    std::string bytes_;
+    std::size_t position_ = 0;
+};
+
+void encode(Imf::OStream& stream, const Samples& image) {
+    const std::size_t row = image.width * image.channels;
+    std::vector<float> top_down;
+    top_down.reserve(image.samples.size());
+    for (std::size_t y = image.height; y-- > 0;)
+        top_down.insert(top_down.end(), image.samples.data() + y * row, image.samples.data() + (y + 1) * row);
+
+    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+    Imf::FrameBuffer frame;
+    const char* const names[] = {"R", "G", "B"};
+    for (std::size_t channel = 0; channel < image.channels; ++channel) {
+        const char* const name = image.channels == 1 ? "Y" : names[channel];
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(top_down.data() + channel),
+                                      image.channels * sizeof(float), row * sizeof(float)));
+    }
+    Imf::OutputFile file(stream, header);
+    file.setFrameBuffer(frame);
+    file.writePixels(static_cast<int>(image.height));
+}
+
+} // namespace
+
+bool has_openexr() {
+    return true;
+}
+
+void write_exr(const std::filesystem::path& path, const Samples& image) {
+    require_writable_samples("write_exr", image);
+    constexpr std::size_t largest = std::numeric_limits<int>::max() / 16; // OpenEXR counts a row's bytes in int
+    if (image.width > largest || image.height > largest)
+        throw std::invalid_argument("write_exr: an image of " + std::to_string(image.width) + " x " +
+                                    std::to_string(image.height) + " is too large for OpenEXR");
+    MemoryStream stream;
+    try {
+        encode(stream, image);
+    } catch (const std::exception& error) {
+        throw std::runtime_error("cannot write '" + path.string() + "': OpenEXR says " + error.what());
+    }
+    write_file(path, stream.bytes());
+}
+
+} // namespace nephroid::examples
+
+#else
+
+namespace nephroid::examples {
+
+bool has_openexr() {
+    return false;
+}
+
+void write_exr(const std::filesystem::path& path, const Samples&) {
+    require_openexr(path);
+}
+
+} // namespace nephroid::examples
+
+#endif
+
+namespace nephroid::examples {
+
+void require_openexr(const std::filesystem::path& path) {
+    if (!has_openexr())
+        throw std::runtime_error("cannot write '" + path.string() +
+                                 "': this program was built without OpenEXR, choose .pfm or .png");
+}
+
+} // namespace nephroid::examples

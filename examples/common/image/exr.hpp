@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+/// @file  OpenEXR: 32-bit floats, compressed without loss.
+#pragma once
+
+#include "common/image/image.hpp"
+
+#include <filesystem>
+
+namespace nephroid::examples {
+
+/// Whether this build has OpenEXR (the build defines `NEPHROID_EXAMPLES_HAS_OPENEXR` for exr.cpp).
+[[nodiscard]] bool has_openexr();
+
+/// Refuses to write `path` in a build without OpenEXR: throws std::runtime_error that says so.
+void require_openexr(const std::filesystem::path& path);
+
+/// Writes a channel Y (grey) or channels R, G, B (colour), samples unchanged, the top row first as the format asks.
+///
+/// Throws std::invalid_argument for an image that is empty, not finite or too large for the format, std::runtime_error
+/// for a build without OpenEXR or a file that cannot be written, of which then nothing is left behind.
+void write_exr(const std::filesystem::path& path, const Samples& image);
+
+} // namespace nephroid::examples

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+/// @file  What surfaces are made of.
+#pragma once
+
+#include "common/ray.hpp"
+
+#include "nephroid/emission/flux.hpp"
+#include "nephroid/vector/error.hpp"
+
+#include <cmath>
+#include <concepts>
+
+namespace nephroid::examples {
+
+/// Applies a function to each band of colours: numbers, or vectors of three.
+template <class Function, std::floating_point... F>
+[[nodiscard]] auto by_band(const Function& function, const F&... bands) {
+    return function(bands...);
+}
+
+template <class Function, class T, class... Others>
+[[nodiscard]] Vec3<T> by_band(const Function& function, const Vec3<T>& first, const Others&... others) {
+    return {function(first.x, others.x...), function(first.y, others.y...), function(first.z, others.z...)};
+}
+
+/// A colour with the same number in each band.
+template <Flux F>
+[[nodiscard]] F grey(double value) {
+    if constexpr (std::floating_point<F>)
+        return static_cast<F>(value);
+    else
+        return F(static_cast<typename F::value_type>(value));
+}
+
+enum class Surface : unsigned char {
+    diffuse,    ///< `color` is the albedo
+    mirror,     ///< `color` is the reflectance, the same at each angle
+    dielectric, ///< glass, water; `color` multiplies what passes, `ior`, `fresnel`, `follow` and `absorption` count
+    conductor,  ///< metal of complex index `eta` + i `k`, times `color`
+    black,      ///< takes all light; what emits is black to the light of others
+};
+
+/// Which of a dielectric's two rays photons take.
+enum class Follow : unsigned char {
+    both,       ///< one of them, by Fresnel's reflectance; without Fresnel what can pass does
+    refraction, ///< the refracted one alone: what is reflected ends there
+};
+
+template <Flux F>
+struct Material {
+    Surface surface = Surface::diffuse;
+    F color = grey<F>(1);                ///< 0 to 1
+    F emission = flux_traits<F>::zero(); ///< radiance seen on the side of the normal
+    bool emits_on_both_sides = false;
+
+    double ior = 1.5;    ///< of the inside, which the normal points away from; the outside is air
+    bool fresnel = true; ///< whether the interface reflects; without it light is refracted whole
+    Follow follow = Follow::both;
+    F absorption = flux_traits<F>::zero(); ///< of the inside, 1 / length: Beer's law
+
+    F eta = grey<F>(1), k = flux_traits<F>::zero();
+
+    [[nodiscard]] bool is_specular() const {
+        return surface == Surface::mirror || surface == Surface::dielectric || surface == Surface::conductor;
+    }
+    [[nodiscard]] bool emits() const { return flux_traits<F>::power(emission) > 0; }
+
+    [[nodiscard]] static Material diffuse(const F& albedo) { return with(Surface::diffuse, albedo); }
+    [[nodiscard]] static Material mirror(const F& reflectance) { return with(Surface::mirror, reflectance); }
+    [[nodiscard]] static Material black() { return with(Surface::black, flux_traits<F>::zero()); }
+
+    [[nodiscard]] static Material emitter(const F& radiance, bool on_both_sides = false) {
+        Material material = black();
+        material.emission = radiance;
+        material.emits_on_both_sides = on_both_sides;
+        return material;
+    }
+
+    [[nodiscard]] static Material dielectric(double ior, bool fresnel = true, Follow follow = Follow::both) {
+        if (!(ior > 0) || !std::isfinite(ior))
+            invalid_argument("Material: an index of refraction must be positive and finite");
+        Material material = with(Surface::dielectric, grey<F>(1));
+        material.ior = ior;
+        material.fresnel = fresnel;
+        material.follow = follow;
+        return material;
+    }
+
+    [[nodiscard]] static Material conductor(const F& eta, const F& k) {
+        Material material = with(Surface::conductor, grey<F>(1));
+        material.eta = eta;
+        material.k = k;
+        return material;
+    }
+
+private:
+    [[nodiscard]] static Material with(Surface surface, const F& color) {
+        Material material;
+        material.surface = surface;
+        material.color = color;
+        return material;
+    }
+};
+
+/// Beer's coefficient of a medium that leaves `color` (0 to 1 in each band) of the light after `distance` (> 0).
+/// What is black there absorbs strongly, not infinitely: a path of length 0 passes.
+template <Flux F>
+[[nodiscard]] F absorption_from(const F& color, double distance) {
+    return by_band(
+        [distance](auto c) {
+            using T = decltype(c);
+            const T least = static_cast<T>(1e-30);
+            return T(-std::log(c > least ? (c < T(1) ? c : T(1)) : least)) / T(distance);
+        },
+        color);
+}
+
+/// What Beer's law leaves after a distance, per band.
+template <Flux F, class T>
+[[nodiscard]] F beer(const F& absorption, T distance) {
+    return by_band([distance](auto a) { return decltype(a)(std::exp(-a * decltype(a)(distance))); }, absorption);
+}
+
+} // namespace nephroid::examples

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+/// @file  Rays, boxes, and what is known of a hit before it is filled in: the words that shapes and the BVH share.
+#pragma once
+
+#include "nephroid/differential/curvature.hpp"
+#include "nephroid/transport/hit.hpp"
+#include "nephroid/vector/glm.hpp"
+
+#include <glm/common.hpp>
+
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+namespace nephroid::examples {
+
+template <class T>
+using Vec3 = glm::vec<3, T>;
+
+/// Shapes intersect in double, whatever the scene's scalar: a float ray is exact there, so that the side of a surface
+/// that a ray starts on is never lost to rounding.
+using wide = double;
+using WideVec3 = Vec3<wide>;
+
+template <class T>
+[[nodiscard]] WideVec3 widen(const Vec3<T>& v) {
+    return WideVec3(v);
+}
+
+/// Hits count between t_min and t_max, in units of the direction's length.
+template <class T>
+struct Ray {
+    Vec3<T> origin;
+    Vec3<T> direction;
+    T t_min = T(0);
+    T t_max = std::numeric_limits<T>::infinity();
+};
+
+/// An axis-aligned box; as made it is empty.
+template <class T>
+struct Box {
+    Vec3<T> min{std::numeric_limits<T>::infinity()};
+    Vec3<T> max{-std::numeric_limits<T>::infinity()};
+
+    [[nodiscard]] bool is_empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+    [[nodiscard]] bool is_finite() const { return all_finite(min) && all_finite(max); }
+
+    void add(const Vec3<T>& p) {
+        for (int axis = 0; axis < 3; ++axis) {
+            min[axis] = p[axis] < min[axis] ? p[axis] : min[axis];
+            max[axis] = p[axis] > max[axis] ? p[axis] : max[axis];
+        }
+    }
+
+    void add(const Box& box) {
+        add(box.min);
+        add(box.max);
+    }
+
+    /// The box and a few units in the last place around it: no corner computed in T is lost to rounding.
+    [[nodiscard]] Box padded() const {
+        const Vec3<T> margin = T(8) * std::numeric_limits<T>::epsilon() * (glm::abs(min) + glm::abs(max));
+        return {min - margin, max + margin};
+    }
+
+    /// Half of the surface, 0 for an empty box.
+    [[nodiscard]] T half_area() const {
+        if (is_empty())
+            return T(0);
+        const Vec3<T> d = max - min;
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    }
+
+    [[nodiscard]] Vec3<T> corner(int i) const {
+        return {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z};
+    }
+};
+
+/// A hit as an intersection routine finds it: enough to rank it, and to fill in the rest if it is the nearest one.
+struct Candidate {
+    wide distance;
+    wide u = 0, v = 0;           ///< barycentric coordinates, for triangles
+    std::uint32_t primitive = 0; ///< which one of the shape's
+};
+
+template <class T>
+using SurfaceCurvature = AnyCurvature<Flat, ShapeOperator<Vec3<T>>, InterpolatedCurvature<Vec3<T>>>;
+
+template <class T>
+using Hit = SurfaceHit<Vec3<T>, SurfaceCurvature<T>>;
+
+/// A bound on how far a point is from the surface that it was put onto in `wide` arithmetic and then rounded to T.
+///
+/// @param scale  the largest coordinates that took part, relevant where T is as wide as the arithmetic
+template <class T>
+[[nodiscard]] T position_error(const Vec3<T>& position, wide scale) {
+    const T rounding = T(4) * std::numeric_limits<T>::epsilon() * (abs(position.x) + abs(position.y) + abs(position.z));
+    return rounding + T(4 * std::numeric_limits<wide>::epsilon() * scale);
+}
+
+/// The sum of a vector's components without sign: a cheap bound on its length.
+template <class T>
+[[nodiscard]] wide magnitude(const Vec3<T>& v) {
+    return abs(wide(v.x)) + abs(wide(v.y)) + abs(wide(v.z));
+}
+
+/// What an analytic shape makes of a point on it.
+///
+/// @param scale  of the shape, see `position_error`
+template <class T>
+[[nodiscard]] Hit<T> make_hit(wide distance, const WideVec3& position, const WideVec3& normal,
+                              const SurfaceCurvature<T>& curvature, wide scale) {
+    const Vec3<T> p(position), n(normal);
+    return {T(distance), p, n, n, curvature, position_error(p, scale)};
+}
+
+/// The shape operator with these columns, rounded to T.
+template <class T>
+[[nodiscard]] ShapeOperator<Vec3<T>> make_shape_operator(const WideVec3& x, const WideVec3& y, const WideVec3& z) {
+    return {Vec3<T>(x), Vec3<T>(y), Vec3<T>(z)};
+}
+
+} // namespace nephroid::examples

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: MIT
+/// @file  A scene: shapes and what they are made of, as the library's walk wants it.
+#pragma once
+
+#include "common/fresnel.hpp"
+#include "common/material.hpp"
+#include "common/shapes.hpp"
+
+#include "nephroid/emission/target.hpp"
+#include "nephroid/transport/scene.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace nephroid::examples {
+
+/// What a ray flies through: the inside of a material, or air. Media do not nest: what lies in water leaves into air.
+struct Medium {
+    std::int32_t material = -1; ///< -1 is air
+};
+
+/// A scene's answer to `scatter`.
+template <class T, Flux F>
+struct Bounce {
+    Event event = Event::absorb;
+    F weight = flux_traits<F>::zero();
+    T eta = T(1);
+    Medium medium = {}; ///< that a refracted ray enters
+};
+
+/// Where a ray meets a dielectric, an index and a side at a time.
+template <class T>
+struct Interface {
+    T eta;          ///< n₁/n₂ for this ray
+    T cos_incident; ///< with the shading normal, where that faces the ray, else with the geometric one
+    bool entering;  ///< into what the normal points away from
+};
+
+/// Shapes and materials. A surface's inside is where its normal points away from, so a sheet of water over a basin does
+/// not need to be closed: a ray that enters it is in water until it leaves it, or ends.
+///
+/// @tparam T  float or double
+/// @tparam F  flux: T, or `glm::vec<3, T>` for red, green and blue
+template <class T, Flux F = Vec3<T>>
+class Scene {
+public:
+    using vector = Vec3<T>;
+    using flux_type = F;
+    using medium = Medium;
+
+    struct Part {
+        Shape<T> shape;
+        std::size_t material = 0; ///< ignored for meshes, whose triangles have their own
+    };
+
+    Scene() = default;
+
+    /// Throws std::invalid_argument for a material that does not exist.
+    Scene(std::vector<Part> parts, std::vector<Material<F>> materials)
+        : parts_(std::move(parts)), materials_(std::move(materials)) {
+        std::vector<Box<T>> boxes;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            require_materials(i);
+            const Box<T> box = std::visit([](const auto& shape) { return shape.bounds(); }, parts_[i].shape);
+            if (!box.is_finite()) { // also an empty mesh
+                unbounded_.push_back(i);
+            } else {
+                bounded_.push_back(i);
+                boxes.push_back(box);
+            }
+            collect_specular(parts_[i], box);
+        }
+        bvh_ = Bvh<T>(boxes, 1);
+    }
+
+    [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+    [[nodiscard]] const std::vector<Material<F>>& materials() const { return materials_; }
+    [[nodiscard]] const Material<F>& material(const Hit<T>& hit) const { return materials_[hit.surface]; }
+    [[nodiscard]] bool empty() const { return parts_.empty(); }
+
+    /// Whether anything can make a caustic.
+    [[nodiscard]] bool has_specular() const { return has_specular_; }
+
+    /// Points whose convex hull holds all bounded specular surfaces: vertices of meshes, corners of boxes of others.
+    /// What `smallest_beam_over` and `bounding_sphere` want. Empty where there are none.
+    [[nodiscard]] const std::vector<Vec3<T>>& specular_points() const { return specular_points_; }
+
+    /// Nothing where no bounded surface is specular.
+    [[nodiscard]] std::optional<BoundingSphere<Vec3<T>>> specular_bounds() const {
+        if (specular_points_.empty())
+            return std::nullopt;
+        return bounding_sphere(specular_points_);
+    }
+
+    /// The bounds of all bounded shapes; empty if there are none.
+    [[nodiscard]] const Box<T>& bounds() const { return bvh_.bounds(); }
+
+    [[nodiscard]] std::optional<Hit<T>> intersect(const Vec3<T>& origin, const Vec3<T>& direction, T t_min,
+                                                  T t_max) const {
+        const Ray<T> ray{origin, direction, t_min, t_max};
+        std::optional<Candidate> best;
+        std::size_t best_part = 0;
+        wide nearest(t_max);
+        const auto try_part = [&](std::size_t i) {
+            if (auto found =
+                    std::visit([&](const auto& shape) { return shape.nearest(ray, nearest); }, parts_[i].shape)) {
+                best = found;
+                best_part = i;
+                nearest = found->distance;
+            }
+        };
+        for (const std::size_t i : unbounded_)
+            try_part(i);
+        bvh_.traverse({origin, direction, t_min, T(nearest)}, [&](std::uint32_t leaf, T) {
+            try_part(bounded_[bvh_.leaf(leaf).front()]);
+            return T(nearest);
+        });
+        if (!best)
+            return std::nullopt;
+
+        const Part& part = parts_[best_part];
+        return std::visit(
+            [&](const auto& shape) {
+                Hit<T> hit = shape.hit(ray, *best);
+                if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh<T>>)
+                    hit.surface = part.material;
+                return hit;
+            },
+            part.shape);
+    }
+
+    /// Whether anything lies between: faster than `intersect`.
+    [[nodiscard]] bool occluded(const Vec3<T>& origin, const Vec3<T>& direction, T t_min, T t_max) const {
+        const Ray<T> ray{origin, direction, t_min, t_max};
+        const auto blocks = [&](std::size_t i) {
+            return std::visit(
+                [&](const auto& shape) {
+                    if constexpr (requires { shape.occludes(ray); })
+                        return shape.occludes(ray);
+                    else
+                        return shape.nearest(ray, wide(t_max)).has_value();
+                },
+                parts_[i].shape);
+        };
+        if (std::any_of(unbounded_.begin(), unbounded_.end(), blocks))
+            return true;
+        bool found = false;
+        bvh_.traverse(ray, [&](std::uint32_t leaf, T nearest) {
+            found = blocks(bounded_[bvh_.leaf(leaf).front()]);
+            return found ? -std::numeric_limits<T>::infinity() : nearest;
+        });
+        return found;
+    }
+
+    /// @param direction  that the photon flies in, unit
+    /// @param sampler    drawn from once, and only where a dielectric both reflects and refracts and both are followed
+    template <class Sampler>
+    [[nodiscard]] Bounce<T, F> scatter(const Hit<T>& hit, const Vec3<T>& direction, Sampler& sampler) const {
+        const Material<F>& m = material(hit);
+        switch (m.surface) {
+        case Surface::diffuse:
+            return {Event::deposit};
+        case Surface::mirror:
+        case Surface::conductor:
+            return {Event::reflect, reflectance(m, hit, direction)};
+        case Surface::dielectric:
+            break;
+        case Surface::black:
+            return {Event::absorb};
+        }
+
+        const Interface<T> at = interface(m, hit, direction);
+        const T reflected = reflectance(m, at);
+        if (m.follow == Follow::refraction)
+            return reflected < T(1) ? refracted(hit, at, T(1) - reflected) : Bounce<T, F>{};
+        if (reflected >= T(1) || (reflected > T(0) && sampler.template next<T>() < reflected))
+            return {Event::reflect, grey<F>(1)};
+        return refracted(hit, at, T(1));
+    }
+
+    /// How a ray meets a dielectric.
+    [[nodiscard]] Interface<T> interface(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction) const {
+        const T geometric = -dot(direction, hit.geometric_normal);
+        const bool entering = geometric > T(0);
+        return {entering ? T(1 / m.ior) : T(m.ior), cosine(hit, direction), entering};
+    }
+
+    /// The share of the light that a dielectric reflects: without Fresnel all or nothing.
+    [[nodiscard]] T reflectance(const Material<F>& m, const Interface<T>& at) const {
+        const T reflected = dielectric_reflectance(at.cos_incident, at.eta);
+        return m.fresnel || reflected >= T(1) ? reflected : T(0);
+    }
+
+    /// What a mirror or a conductor reflects.
+    [[nodiscard]] F reflectance(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction) const {
+        if (m.surface == Surface::mirror)
+            return m.color;
+        const T c = cosine(hit, direction);
+        return m.color *
+               by_band([c](auto eta, auto k) { return conductor_reflectance(decltype(eta)(c), eta, k); }, m.eta, m.k);
+    }
+
+    /// The refracted ray's part in a bounce.
+    ///
+    /// @param share  of the light that the ray carries
+    [[nodiscard]] Bounce<T, F> refracted(const Hit<T>& hit, const Interface<T>& at, T share) const {
+        return {Event::refract, material(hit).color * grey<F>(double(share)), at.eta,
+                Medium{at.entering ? static_cast<std::int32_t>(hit.surface) : -1}};
+    }
+
+    /// What is left of the light after a flight through a medium.
+    [[nodiscard]] F transmittance(const Medium& through, T distance) const {
+        if (through.material < 0)
+            return grey<F>(1);
+        return beer(materials_[static_cast<std::size_t>(through.material)].absorption, distance);
+    }
+
+private:
+    /// Between the ray and the shading normal; where that one faces away, the geometric one.
+    [[nodiscard]] static T cosine(const Hit<T>& hit, const Vec3<T>& direction) {
+        const T geometric = dot(direction, hit.geometric_normal), shading = dot(direction, hit.shading_normal);
+        const bool agree = (geometric > T(0)) == (shading > T(0));
+        return (std::min)(abs(agree ? shading : geometric), T(1));
+    }
+
+    void require_materials(std::size_t i) const {
+        const auto require = [&](std::size_t material) {
+            if (material >= materials_.size())
+                invalid_argument("Scene: part " + std::to_string(i) + " is made of material " +
+                                 std::to_string(material) + ", which does not exist");
+        };
+        if (const auto* mesh = std::get_if<TriangleMesh<T>>(&parts_[i].shape))
+            for (std::size_t triangle = 0; triangle < mesh->data().triangles.size(); ++triangle)
+                require(mesh->material(triangle));
+        else
+            require(parts_[i].material);
+    }
+
+    void collect_specular(const Part& part, const Box<T>& box) {
+        if (const auto* mesh = std::get_if<TriangleMesh<T>>(&part.shape)) {
+            std::vector<bool> taken(mesh->data().positions.size());
+            for (std::size_t i = 0; i < mesh->data().triangles.size(); ++i) {
+                if (!materials_[mesh->material(i)].is_specular())
+                    continue;
+                has_specular_ = true;
+                for (const std::uint32_t vertex : mesh->data().triangles[i]) {
+                    if (!taken[vertex])
+                        specular_points_.push_back(mesh->data().positions[vertex]);
+                    taken[vertex] = true;
+                }
+            }
+        } else if (materials_[part.material].is_specular()) {
+            has_specular_ = true;
+            for (int i = 0; i < 8 && box.is_finite(); ++i)
+                specular_points_.push_back(box.corner(i));
+        }
+    }
+
+    std::vector<Part> parts_;
+    std::vector<Material<F>> materials_;
+    std::vector<std::size_t> bounded_, unbounded_; ///< indices of parts
+    Bvh<T> bvh_;                                   ///< over the bounded ones
+    bool has_specular_ = false;
+    std::vector<Vec3<T>> specular_points_;
+};
+
+} // namespace nephroid::examples

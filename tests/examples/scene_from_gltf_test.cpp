@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+#include "common/scene_from_gltf.hpp"
+
+#include "common/eye_paths.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+using namespace nephroid::examples;
+
+namespace {
+
+/// A triangle at a height, of a material.
+MeshDescription triangle(float z, std::size_t material, bool smooth = false) {
+    MeshDescription mesh;
+    mesh.positions = {{-3, -3, z}, {3, -3, z}, {0, 3, z}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.material = material;
+    if (smooth)
+        mesh.normals = {{-0.6f, 0, 0.8f}, {0.6f, 0, 0.8f}, {0, 0.6f, 0.8f}};
+    return mesh;
+}
+
+SceneDescription description() {
+    SceneDescription d;
+    MaterialDescription matt, glass, metal, lamp, brushed;
+    matt.base_color = {0.2f, 0.4f, 0.6f};
+    matt.metallic = 0;
+    glass.metallic = 0;
+    glass.transmission = 1;
+    glass.roughness = 0;
+    glass.ior = 1.33f;
+    glass.has_volume = true;
+    glass.attenuation_color = {0.25f, 0.5f, 1};
+    glass.attenuation_distance = 2;
+    metal.roughness = 0.05f;
+    metal.base_color = {1, 0.8f, 0.3f};
+    lamp.emission = {5, 6, 7};
+    lamp.double_sided = true;
+    brushed.name = "brushed";
+    d.materials = {matt, glass, metal, lamp, brushed};
+    d.meshes = {triangle(0, 0), triangle(1, 1, true), triangle(2, 2), triangle(3, 3), triangle(4, 4)};
+    LightDescription sun;
+    sun.intensity = {1, 2, 3};
+    d.lights = {sun};
+    return d;
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("scene from gltf: materials become what they are nearest to", T, float, double) {
+    const auto g = scene_from<T>(description());
+    const auto& m = g.scene.materials();
+    REQUIRE(m.size() == 5);
+    CHECK(m[0].surface == Surface::diffuse);
+    CHECK(m[0].color == Vec3<T>(glm::vec3(0.2f, 0.4f, 0.6f)));
+    CHECK(m[1].surface == Surface::dielectric);
+    CHECK(m[1].ior == doctest::Approx(1.33));
+    CHECK(m[1].fresnel);
+    CHECK(m[1].follow == Follow::both);
+    CHECK(m[2].surface == Surface::mirror);
+    CHECK(m[2].color.z == T(0.3f));
+    CHECK(m[3].surface == Surface::black);
+    CHECK(m[3].emission == Vec3<T>(5, 6, 7));
+    CHECK(m[3].emits_on_both_sides);
+    CHECK(m[4].surface == Surface::diffuse);
+    REQUIRE(g.warnings.size() == 1);
+    CHECK(g.warnings[0].find("brushed") != std::string::npos);
+    // Beer's law leaves the attenuation's colour after its distance.
+    const Vec3<T> left = g.scene.transmittance(Medium{1}, T(2));
+    CHECK(std::abs(left.x - T(0.25)) < T(1e-6));
+    CHECK(std::abs(left.y - T(0.5)) < T(1e-6));
+    CHECK(left.z == 1);
+    CHECK(g.scene.transmittance(Medium{}, T(2)) == Vec3<T>(1));
+}
+
+TEST_CASE_TEMPLATE("scene from gltf: triangles keep their materials and their normals", T, float, double) {
+    const auto g = scene_from<T>(description());
+    T from = T(-1);
+    for (std::size_t i = 0; i < 5; ++i) {
+        const auto hit = g.scene.intersect({T(0.5), T(-1), from}, {0, 0, 1}, T(0), T(100));
+        REQUIRE(hit.has_value());
+        CHECK(hit->surface == i);
+        CHECK(hit->position.z == T(i));
+        CHECK((hit->shading_normal != hit->geometric_normal) == (i == 1));
+        from = hit->position.z + T(0.01);
+    }
+    CHECK(g.scene.has_specular());
+    CHECK(g.scene.specular_points().size() == 6);
+}
+
+TEST_CASE_TEMPLATE("scene from gltf: lamps are those of the file and what shines in it", T, float, double) {
+    const auto g = scene_from<T>(description());
+    REQUIRE(g.lamps.lamps.size() == 1);
+    CHECK(g.lamps.lamps[0].kind == Lamp<T, Vec3<T>>::Kind::directional);
+    CHECK(g.lamps.lamps[0].intensity == Vec3<T>(1, 2, 3));
+    REQUIRE(g.lamps.areas.size() == 1);
+    CHECK(g.lamps.areas[0].triangles.size() == 2); // both sides
+    const auto lights = photon_lights(g.lamps, g.scene);
+    REQUIRE(lights.lights().size() == 2);
+    CHECK(lights.power() > 0);
+    CHECK(scene_from<T>(SceneDescription{}).scene.empty());
+    CHECK(scene_from<T>(SceneDescription{}).lamps.empty());
+}
+
+TEST_CASE_TEMPLATE("scene from gltf: light of one band is the mean of the three", T, float, double) {
+    const auto g = scene_from<T, T>(description());
+    CHECK(std::abs(g.scene.materials()[0].color - T(0.4)) < T(1e-6));
+    CHECK(std::abs(g.lamps.areas[0].radiance - T(6)) < T(1e-6));
+}
+
+TEST_CASE("scene from gltf: cameras see what the file's see") {
+    CameraDescription c;
+    c.position = {0, 0, 10};
+    c.yfov = 0.9f;
+    c.aspect = 1.5f;
+    CHECK(aspect_of(c) == 1.5);
+    const auto camera = camera_from<float>(c, 30, 20);
+    const auto top = camera.ray(15, 20);
+    CHECK(std::abs(std::atan2(top.direction.y, -top.direction.z) - 0.45f) < 1e-6f);
+    c.kind = CameraDescription::Kind::orthographic;
+    c.xmag = 4;
+    c.ymag = 2;
+    CHECK(aspect_of(c) == 2);
+    CHECK(std::abs(camera_from<float>(c, 20, 10).ray(20, 10).origin.x - 4) < 1e-6f);
+    CHECK(std::abs(camera_from<float>(c, 20, 10).ray(20, 10).origin.y - 2) < 1e-6f);
+}
+
+TEST_CASE("scene from gltf: without a camera the whole scene is in view") {
+    const auto g = scene_from<float>(description());
+    const auto camera = camera_from<float>(camera_for(g.scene.bounds()), 64, 64);
+    // All corners of the bounds project into the film: a ray through the film comes near each of them.
+    for (int i = 0; i < 8; ++i) {
+        const Vec3<float> corner = g.scene.bounds().corner(i);
+        float nearest = 1e9f;
+        for (int y = 0; y <= 64; ++y)
+            for (int x = 0; x <= 64; ++x) {
+                const Ray<float> ray = camera.ray(float(x), float(y));
+                const Vec3<float> to = corner - ray.origin;
+                nearest = std::min(
+                    nearest, nephroid::length(Vec3<float>(to - nephroid::dot(to, ray.direction) * ray.direction)));
+            }
+        CHECK(nearest < 0.3f); // a pixel is about 0.25 wide there
+    }
+}
