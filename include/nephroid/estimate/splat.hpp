@@ -15,7 +15,10 @@ namespace nephroid {
 /// Adds a pixel's footprint to the photon's, so that no footprint falls between the eye path vertices: the image
 /// keeps its energy and converges even at folds. On by default.
 struct PixelFilter {
-    double width_scale = 1; ///< times the kernel's own constant, `pixel_filter_width`; 1 has a pixel box's variance
+    /// Times the kernel's own constant, `pixel_filter_width`. 1 has a pixel box's variance and keeps folds sharpest; a
+    /// picture's energy then varies by up to 0.7% where most light falls into a few pixels. 1.244 puts the zero of the
+    /// biweight's Fourier transform at the pixels' frequency: energy to 0.2% there, and folds half again as blurred.
+    double width_scale = 1;
 };
 
 /// Splats the footprint as it is.
