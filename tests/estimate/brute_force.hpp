@@ -22,8 +22,8 @@ struct Vertex {
 
 /// columns x rows vertices with this spacing: corner + i spacing u + j spacing v.
 template <class T>
-void add_lattice(std::vector<Vertex<glm::vec<3, T>>>& vertices, int columns, int rows, double spacing, const glm::dvec3& corner,
-                 const glm::dvec3& u, const glm::dvec3& v, const glm::dvec3& normal) {
+void add_lattice(std::vector<Vertex<glm::vec<3, T>>>& vertices, int columns, int rows, double spacing,
+                 const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, const glm::dvec3& normal) {
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i) {
             const glm::dvec3 p = corner + i * spacing * u + j * spacing * v;
@@ -78,8 +78,9 @@ struct Received {
 /// @param filter     the radius of the disk that the pixel filter adds, world units; 0 for none
 /// @param epsilon    of the scalar that the library calculates with
 template <class V, class Kernel, class F>
-void receive(std::vector<Received>& image, const std::vector<Vertex<V>>& vertices, const Deposit<V, F, 2>& deposit, double flux,
-             const Kernel& kernel, double filter, double spacing, double epsilon, double normal_distance = 0.25) {
+void receive(std::vector<Received>& image, const std::vector<Vertex<V>>& vertices, const Deposit<V, F, 2>& deposit,
+             double flux, const Kernel& kernel, double filter, double spacing, double epsilon,
+             double normal_distance = 0.25) {
     const Covariance c(deposit, filter);
     const double thickness = (std::max)(normal_distance * c.minor(), spacing);
     const double peak = flux / std::sqrt(c.determinant());

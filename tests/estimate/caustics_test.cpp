@@ -55,7 +55,8 @@ static_assert(SampleSequence<Grid>);
 /// A lamp over the unit square that shines straight down with irradiance 1.
 template <class T, class F = T>
 DirectionalLight<Vec<T>, F> lamp(T height = 2, F irradiance = F(1)) {
-    return DirectionalLight<Vec<T>, F>({{0, 0, -1}, irradiance, Parallelogram<Vec<T>>{{0, 0, height}, {1, 0, 0}, {0, 1, 0}}});
+    return DirectionalLight<Vec<T>, F>(
+        {{0, 0, -1}, irradiance, Parallelogram<Vec<T>>{{0, 0, height}, {1, 0, 0}, {0, 1, 0}}});
 }
 
 /// Still water of index 1.33 over a floor one unit below.
@@ -76,7 +77,8 @@ std::vector<Vertex<Vec<T>>> floor_of(int n, double low, double high) {
 /// A mirror that throws the lamp's light onto the ceiling, a hole beside it, a black patch, and walls: of every fate some.
 struct Untidy : tests::SheetScene<float> {
     template <class Sampler>
-    Scattering<float, float> scatter(const SurfaceHit<glm::vec3, Flat>& hit, const glm::vec3& d, Sampler& sampler) const {
+    Scattering<float, float> scatter(const SurfaceHit<glm::vec3, Flat>& hit, const glm::vec3& d,
+                                     Sampler& sampler) const {
         auto answer = SheetScene<float>::scatter(hit, d, sampler);
         if (hit.surface == 0) { // the patchwork on the ground
             const float x = hit.position.x, y = hit.position.y;
@@ -94,9 +96,9 @@ struct Untidy : tests::SheetScene<float> {
 };
 
 Untidy untidy() {
-    return {{{{{0.4f, 0.5f, 0}, {0, 0, 1}, Event::reflect, 1.0f, 1, 1, 0.6f},        // patchwork, with corners missing
-              {{0.7f, 0.7f, 1.5f}, {0, 0, -1}, Event::reflect, 0.5f, 1, 1, 0.2f},    // a mirror over a part of it
-              {{0, 0, 1.9f}, {0, 0, -1}, Event::deposit, 1.0f, 1, 1, 1.2f}}}};        // the ceiling
+    return {{{{{0.4f, 0.5f, 0}, {0, 0, 1}, Event::reflect, 1.0f, 1, 1, 0.6f},     // patchwork, with corners missing
+              {{0.7f, 0.7f, 1.5f}, {0, 0, -1}, Event::reflect, 0.5f, 1, 1, 0.2f}, // a mirror over a part of it
+              {{0, 0, 1.9f}, {0, 0, -1}, Event::deposit, 1.0f, 1, 1, 1.2f}}}};    // the ceiling
 }
 
 /// A point light whose photons have spread one way only: needles for ever.
@@ -125,7 +127,8 @@ TEST_CASE_TEMPLATE("caustics: under still water the light is as it was above", T
     const auto vertices = floor_of<T>(32, 0.2, 0.8);
     const auto map = map_of(vertices);
     PhotonSplatter<Vec<T>, T> splatter(map);
-    const Statistics account = splat_caustics(still_water<T>(), lamp<T>(), splatter, {.count = 4900, .smoothing = 8}, Grid{70});
+    const Statistics account =
+        splat_caustics(still_water<T>(), lamp<T>(), splatter, {.count = 4900, .smoothing = 8}, Grid{70});
     const double p = 0.6 / 32, r = std::sqrt(64 / (std::numbers::pi * 4900) + 2.0 / 3 * p * p);
     const double tolerance = 48 * 0.8 * std::pow(2 * std::numbers::pi * 70 * r, -3.5) * 8;
     REQUIRE(tolerance < 2.5e-3);
@@ -163,7 +166,9 @@ struct WaveScene {
                 const V change = per_x * bend / steepness * V{-2, -1, 0};
                 return V(change - dot(n, change) * n);
             };
-            return Hit{o.z - z, {o.x, o.y, z}, n, n, {column(2), column(1), zero}, rounding_error(o, o.z - z, V{o.x, o.y, z}), 0};
+            return Hit{
+                o.z - z, {o.x, o.y, z}, n, n, {column(2), column(1), zero}, rounding_error(o, o.z - z, V{o.x, o.y, z}),
+                0};
         }
         const T t = -o.z / d.z;
         return Hit{t, o + t * d, up, up, {zero, zero, zero}, 0, 1};
@@ -241,7 +246,8 @@ TEST_CASE("caustics: of every fate some and the account balances") {
     using Policies = SplatPolicies<BiweightKernel, NoPixelFilter, WidenCollapsed, DiscardExcess>;
     PhotonSplatter<glm::vec3, float, Policies> splatter(map, Policies{.excess = {.diagonals = 0.2}});
     const PointLight<glm::vec3, float> light({.position = {0.5f, 0.5f, 1}, .intensity = 1});
-    Statistics account = splat_caustics(untidy(), light, splatter, {.count = 20000, .smoothing = 4, .limits = {.roulette_after = 1}});
+    Statistics account =
+        splat_caustics(untidy(), light, splatter, {.count = 20000, .smoothing = 4, .limits = {.roulette_after = 1}});
     check_balance(account);
     CHECK(account.emitted.photons == 20000);
     CHECK(account.emitted.flux == doctest::Approx(4 * std::numbers::pi).epsilon(1e-4));
@@ -255,7 +261,8 @@ TEST_CASE("caustics: of every fate some and the account balances") {
     using Bare = SplatPolicies<BiweightKernel, NoPixelFilter>;
     PhotonSplatter<glm::vec3, float, Bare> bare(map);
     struct Focus : tests::SheetScene<float> {
-        Scattering<float, float> scatter(const SurfaceHit<glm::vec3, Flat>& hit, const glm::vec3&, Sampler<HaltonSequence>&) const {
+        Scattering<float, float> scatter(const SurfaceHit<glm::vec3, Flat>& hit, const glm::vec3&,
+                                         Sampler<HaltonSequence>&) const {
             return {hit.surface == 0 ? Event::reflect : Event::deposit, 1, 1};
         }
     };
@@ -300,7 +307,8 @@ TEST_CASE("caustics: any number of threads renders the same picture bit for bit"
 
 TEST_CASE("caustics: a scene's exception reaches the caller from any of the threads") {
     struct Throws : tests::SheetScene<float> {
-        std::optional<SurfaceHit<glm::vec3, Flat>> intersect(const glm::vec3& o, const glm::vec3& d, float low, float high) const {
+        std::optional<SurfaceHit<glm::vec3, Flat>> intersect(const glm::vec3& o, const glm::vec3& d, float low,
+                                                             float high) const {
             if (o.z < 1.5f && o.x > 0.5f)
                 throw std::runtime_error("out of memory");
             return SheetScene<float>::intersect(o, d, low, high);
@@ -310,7 +318,10 @@ TEST_CASE("caustics: a scene's exception reaches the caller from any of the thre
     const auto map = map_of(vertices);
     PhotonSplatter<glm::vec3, float> splatter(map);
     ThreadExecutor executor(3);
-    const auto run = [&] { (void)splat_caustics(Throws{still_water<float>()}, lamp<float>(), splatter, {.count = 5000}, HaltonSequence{}, executor); };
+    const auto run = [&] {
+        (void)splat_caustics(Throws{still_water<float>()}, lamp<float>(), splatter, {.count = 5000}, HaltonSequence{},
+                             executor);
+    };
     CHECK_THROWS_WITH_AS(run(), "out of memory", std::runtime_error);
 }
 
@@ -319,8 +330,8 @@ TEST_CASE("caustics: two passes over the parts make the picture of one bit for b
     const auto [image, account] = render_untidy(SerialExecutor{}, {{.count = 5000}});
     for (const std::uint64_t cut : {1u, 512u, 1000u, 4999u}) {
         CAPTURE(cut);
-        const auto [parts, sum] = render_untidy(
-            SerialExecutor{}, {{.first = 0, .count = cut, .total = 5000}, {.first = cut, .count = 5000 - cut, .total = 5000}});
+        const auto [parts, sum] = render_untidy(SerialExecutor{}, {{.first = 0, .count = cut, .total = 5000},
+                                                                   {.first = cut, .count = 5000 - cut, .total = 5000}});
         CHECK(parts == image);
         CHECK(sum.rays == account.rays);
         CHECK(sum.emitted.photons == account.emitted.photons);
@@ -357,7 +368,8 @@ TEST_CASE("caustics: the callback hears of the progress and can stop it") {
 
     // The first photons of the sequence: the same as a pass of that many.
     PhotonSplatter<glm::vec3, float> first_part(map);
-    splat_caustics(still_water<float>(), lamp<float>(), first_part, {.count = heard.back(), .total = count, .smoothing = 4});
+    splat_caustics(still_water<float>(), lamp<float>(), first_part,
+                   {.count = heard.back(), .total = count, .smoothing = 4});
     CHECK(sums(first_part) == sums(splatter));
 
     heard.clear();
@@ -383,7 +395,8 @@ TEST_CASE("caustics: zero photons and impossible footprints are refused") {
         return "none";
     };
     CHECK(complaint({}).starts_with("nephroid::splat_caustics: zero photons"));
-    for (const double smoothing : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+    for (const double smoothing :
+         {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
         CHECK(complaint({.count = 10, .smoothing = smoothing}).starts_with("nephroid::splat_caustics: smoothing"));
     CHECK(complaint({.count = 10}) == "none");
 }
@@ -405,7 +418,8 @@ TEST_CASE("caustics: light comes in colours") {
     water.sheets[0].weight = {1, 0.5f, 0};
     PhotonSplatter<glm::vec3, glm::vec3> splatter(map);
     PhotonSplatter<glm::vec3, float> grey(map);
-    const auto account = splat_caustics(water, lamp<float, glm::vec3>(2, {1, 1, 1}), splatter, {.count = 4900}, Grid{70});
+    const auto account =
+        splat_caustics(water, lamp<float, glm::vec3>(2, {1, 1, 1}), splatter, {.count = 4900}, Grid{70});
     splat_caustics(still_water<float>(), lamp<float>(), grey, {.count = 4900}, Grid{70});
     const auto colours = sums(splatter);
     const auto greys = sums(grey);
@@ -439,12 +453,15 @@ TEST_CASE_TEMPLATE("caustics: are rendered in any vectors", T, float, double) {
     tests::for_each_vector<T>([]<class V>() {
         std::vector<Vertex<V>> vertices;
         for (int i = 0; i < 16 * 16; ++i)
-            vertices.push_back({make_vector<V>(T(0.3) + T(i % 16) / 40, T(0.3) + T(i / 16) / 40, 0), make_vector<V>(0, 0, 1)});
+            vertices.push_back(
+                {make_vector<V>(T(0.3) + T(i % 16) / 40, T(0.3) + T(i / 16) / 40, 0), make_vector<V>(0, 0, 1)});
         const auto map = map_of(vertices);
-        const DirectionalLight<V, T> light({make_vector<V>(0, 0, -1), T(1),
-                                            Parallelogram<V>{make_vector<V>(0, 0, 2), make_vector<V>(1, 0, 0), make_vector<V>(0, 1, 0)}});
+        const DirectionalLight<V, T> light(
+            {make_vector<V>(0, 0, -1), T(1),
+             Parallelogram<V>{make_vector<V>(0, 0, 2), make_vector<V>(1, 0, 0), make_vector<V>(0, 1, 0)}});
         PhotonSplatter<V, T> splatter(map);
-        const Statistics account = splat_caustics(ForeignWater<V>{}, light, splatter, {.count = 900, .smoothing = 5}, Grid{30});
+        const Statistics account =
+            splat_caustics(ForeignWater<V>{}, light, splatter, {.count = 900, .smoothing = 5}, Grid{30});
         check_balance(account);
         // As under still water above: s = 5 on a grid of 1/30, and the filter; ω = 2π 30 r.
         const double r = std::sqrt(25 / (std::numbers::pi * 900) + 2.0 / 3 / 1600);
@@ -465,7 +482,9 @@ struct Lamp { // no power, so no light
 };
 
 template <class S, class L, class P>
-concept Renders = requires(const S& scene, const L& light, P& splatter) { splat_caustics(scene, light, splatter, PhotonPass{}); };
+concept Renders = requires(const S& scene, const L& light, P& splatter) {
+    splat_caustics(scene, light, splatter, PhotonPass{});
+};
 
 using Water = tests::SheetScene<float>;
 using Sun = DirectionalLight<glm::vec3, float>;

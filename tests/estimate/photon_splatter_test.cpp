@@ -53,7 +53,9 @@ std::vector<Deposit<Vec<T>, F>> photons(int count, F flux = F(1)) {
             n = tests::narrow<Vec<T>>(draw.direction()), p.z = T(draw.in(-0.05, 0.05));
         const auto frame = frame_about(n);
         const double size = std::pow(10.0, draw.in(-3, 0));
-        const auto in_plane = [&] { return Vec<T>(T(draw.in(-size, size)) * frame.u + T(draw.in(-size, size)) * frame.v); };
+        const auto in_plane = [&] {
+            return Vec<T>(T(draw.in(-size, size)) * frame.u + T(draw.in(-size, size)) * frame.v);
+        };
         deposits.push_back({p, n, -n, flux * T(draw.in(0.5, 1)), {in_plane(), in_plane()}});
     }
     return deposits;
@@ -196,7 +198,8 @@ TEST_CASE_TEMPLATE("photon splatter: a vertex off the tangent plane receives not
     REQUIRE(double(map.spacing_at({T(0.4375), T(0.4375), 0})) < 0.1);
     const SplatPolicies<BiweightKernel, NoPixelFilter> policies{.normal_distance = 0.21};
     PhotonSplatter<Vec<T>, T, SplatPolicies<BiweightKernel, NoPixelFilter>> splatter(map, policies);
-    splat(splatter, std::vector<Deposit<Vec<T>, T>>{{{T(0.4375), T(0.4375), 0}, up, -up, T(1), {Vec<T>{2, 0, 0}, {0, 1, 0}}}});
+    splat(splatter,
+          std::vector<Deposit<Vec<T>, T>>{{{T(0.4375), T(0.4375), 0}, up, -up, T(1), {Vec<T>{2, 0, 0}, {0, 1, 0}}}});
     const auto image = sums(splatter, vertices.size());
     for (std::size_t layer = 0; layer < 20; ++layer)
         CHECK((image[64 * layer + 27] > T(0)) == (0.01 * double(layer) < 0.105)); // the step nearest to the middle
@@ -227,8 +230,9 @@ TEST_CASE("photon splatter: a response weighs each photon by vertex and directio
         deposit.direction = tests::narrow<glm::vec3>(draw.direction());
         std::vector<Received> one(vertices.size());
         const double p = double(map.spacing_at(deposit.position)), pi = std::numbers::pi;
-        tests::receive(one, vertices, deposit, double(deposit.flux),
-                       [&](double r2) { return 3 / pi * (1 - r2) * (1 - r2); }, std::sqrt(2.0 / 3) * p, p, epsilon<float>);
+        tests::receive(
+            one, vertices, deposit, double(deposit.flux), [&](double r2) { return 3 / pi * (1 - r2) * (1 - r2); },
+            std::sqrt(2.0 / 3) * p, p, epsilon<float>);
         for (std::size_t i = 0; i < one.size(); ++i) {
             const double response = double(Gloss{}(i, deposit.direction));
             expected[i].value += response * one[i].value;
@@ -313,11 +317,11 @@ TEST_CASE_TEMPLATE("photon splatter: books what became of each photon", T, float
     const auto map = map_of(vertices);
     const Vec<T> up{0, 0, 1}, centre{T(0.5), T(0.5), 0}, a{T(0.1), 0, 0}, b{0, T(0.1), 0}, zero{0, 0, 0};
     const std::vector<Deposit<Vec<T>, T>> deposits{
-        {centre, up, -up, T(1), {a, b}},                       // splatted
-        {{T(50), T(50), T(50)}, up, -up, T(2), {a, b}},        // unseen
-        {centre, up, -up, T(4), {a, zero}},                    // collapsed, without a filter
-        {centre, up, -up, T(8), {T(1e4) * a, b}},              // excessive
-        {centre, up, -up, T(16), {T(NAN) * a, b}},              // invalid
+        {centre, up, -up, T(1), {a, b}},                // splatted
+        {{T(50), T(50), T(50)}, up, -up, T(2), {a, b}}, // unseen
+        {centre, up, -up, T(4), {a, zero}},             // collapsed, without a filter
+        {centre, up, -up, T(8), {T(1e4) * a, b}},       // excessive
+        {centre, up, -up, T(16), {T(NAN) * a, b}},      // invalid
     };
     using Policies = SplatPolicies<BiweightKernel, NoPixelFilter, DiscardCollapsed, DiscardExcess>;
     PhotonSplatter<Vec<T>, T, Policies> splatter(map);
@@ -361,8 +365,9 @@ TEST_CASE_TEMPLATE("photon splatter: a needle thinner than any makes no vertex a
     PhotonSplatter<Vec<T>, T, SplatPolicies<BiweightKernel, NoPixelFilter>> splatter(map);
     const Vec<T> up{0, 0, 1}, diagonal{1, 1, 0}, across{-1, 1, 0};
     for (const T width : {T(1e-30), T(1e-34), T(1e-36), (std::numeric_limits<T>::min)() * 8})
-        splat(splatter, std::vector<Deposit<Vec<T>, T>>{{{1, 2, 0}, up, -up, T(1), {diagonal, width * across}},
-                                                        {{1, 2, 0}, up, -up, T(1), {width * diagonal, width * across}}});
+        splat(splatter,
+              std::vector<Deposit<Vec<T>, T>>{{{1, 2, 0}, up, -up, T(1), {diagonal, width * across}},
+                                              {{1, 2, 0}, up, -up, T(1), {width * diagonal, width * across}}});
     for (const T sum : sums(splatter, vertices.size()))
         CHECK(isfinite(sum));
 }

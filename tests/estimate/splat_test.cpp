@@ -60,7 +60,8 @@ double flux_of(const Splat<V, F>& splat) {
 double sampling_error(const Covariance& c, double p, int m) {
     const double pi = std::numbers::pi;
     const auto transform = [&](double w) {
-        const double bessel = w * w > 9.75 ? (std::min)(0.4344, std::sqrt(2 / pi) / std::pow(w * w - 8.75, 0.25)) : 0.4344;
+        const double bessel =
+            w * w > 9.75 ? (std::min)(0.4344, std::sqrt(2 / pi) / std::pow(w * w - 8.75, 0.25)) : 0.4344;
         return (std::min)(1.0, 48 * bessel / (w * w * w));
     };
     constexpr int most = 30;
@@ -87,7 +88,8 @@ TEST_CASE_TEMPLATE("splat: over a fine lattice a photon's flux is kept", T, floa
     Draws draw(61);
     const double filter = std::sqrt(2.0 / 3) * spacing;
     for (int i = 0; i < 60; ++i) {
-        const double longest = i % 3 == 0 ? draw.in(0, 0.01) : draw.in(0.05, 0.4), shortest = i % 2 == 0 ? 0 : draw.in(0, 0.1);
+        const double longest = i % 3 == 0 ? draw.in(0, 0.01) : draw.in(0.05, 0.4),
+                     shortest = i % 2 == 0 ? 0 : draw.in(0, 0.1);
         const bool is_point = i % 10 == 9;
         const auto base = is_point ? deposit_at<T>(0, 0, 0, 0, 0, 0)
                                    : deposit_at<T>(0, 0, longest, draw.in(0, 3.1), shortest, draw.in(0, 3.1));
@@ -107,7 +109,8 @@ TEST_CASE_TEMPLATE("splat: over a fine lattice a photon's flux is kept", T, floa
             double energy = 0;
             for (const auto& vertex : vertices) {
                 const Vec<T> d = map.tree().relative(vertex.position) - splat.centre;
-                energy += double(splat.peak * BiweightKernel{}(square(dot(splat.row_a, d)) + square(dot(splat.row_b, d))));
+                energy +=
+                    double(splat.peak * BiweightKernel{}(square(dot(splat.row_a, d)) + square(dot(splat.row_b, d))));
             }
             energy *= spacing * spacing / 3;
             CHECK(std::abs(energy - 1) <= alone + rounding);
@@ -124,7 +127,8 @@ TEST_CASE_TEMPLATE("splat: whatever a policy does to the footprint the flux stay
     const auto map = map_of(vertices);
     Draws draw(62);
     for (int i = 0; i < 100; ++i) {
-        const auto deposit = deposit_at<T>(0.5, 0.5, draw.in(0.001, 4), draw.in(0, 3), draw.in(0.001, 4), draw.in(0, 3));
+        const auto deposit =
+            deposit_at<T>(0.5, 0.5, draw.in(0.001, 4), draw.in(0, 3), draw.in(0.001, 4), draw.in(0, 3));
         const auto check = [&](const auto& policies) {
             const auto outcome = make_splat(deposit, map, policies);
             REQUIRE(outcome.fate == Fate::splatted);
@@ -132,12 +136,14 @@ TEST_CASE_TEMPLATE("splat: whatever a policy does to the footprint the flux stay
         };
         check(SplatPolicies<>{});
         check(SplatPolicies<ConeKernel, PixelFilter, WidenCollapsed, BoundMajorRadius>{.excess = {0.1}});
-        check(SplatPolicies<BiweightKernel, NoPixelFilter, WidenCollapsed, FallBackToDisk>{.excess = {.radius = 0.2, .diagonals = 0.3}});
+        check(SplatPolicies<BiweightKernel, NoPixelFilter, WidenCollapsed, FallBackToDisk>{
+            .excess = {.radius = 0.2, .diagonals = 0.3}});
     }
 }
 
 // The filter's disk: sqrt(2/3) of the spacing for the biweight kernel, 1/√3 for the uniform one.
-TEST_CASE_TEMPLATE("splat: the pixel filter adds its disk in quadrature and can be scaled or left out", T, float, double) {
+TEST_CASE_TEMPLATE("splat: the pixel filter adds its disk in quadrature and can be scaled or left out", T, float,
+                   double) {
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     const auto deposit = deposit_at<T>(0.5, 0.5, 0.2, 0, 0.05, std::numbers::pi / 2);
@@ -206,7 +212,8 @@ TEST_CASE_TEMPLATE("splat: a footprint that is no number is invalid", T, float, 
         deposit = deposit_at<T>(0.5, 0.5, 0.1, 0, 0.1, 1);
         deposit.position.y = bad;
         CHECK(make_splat(deposit, map, SplatPolicies<>{}).fate == Fate::invalid);
-        Deposit<Vec<T>, T, 3> three{{T(0.5), T(0.5), 0}, {0, 0, 1}, {0, 0, -1}, 1, {Vec<T>{1, 0, 0}, {0, 1, 0}, {0, bad, 0}}};
+        Deposit<Vec<T>, T, 3> three{
+            {T(0.5), T(0.5), 0}, {0, 0, 1}, {0, 0, -1}, 1, {Vec<T>{1, 0, 0}, {0, 1, 0}, {0, bad, 0}}};
         CHECK(make_splat(three, map, SplatPolicies<>{}).fate == Fate::invalid);
     }
 }
@@ -250,7 +257,10 @@ TEST_CASE_TEMPLATE("splat: of the longest footprints there are is finite", T, fl
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     for (int power = 0; power < std::numeric_limits<T>::max_exponent; power += 4) {
-        Deposit<Vec<T>, T> deposit{{T(0.5), T(0.5), 0}, {0, 0, 1}, {1, 0, 0}, T(1),
+        Deposit<Vec<T>, T> deposit{{T(0.5), T(0.5), 0},
+                                   {0, 0, 1},
+                                   {1, 0, 0},
+                                   T(1),
                                    {Vec<T>{std::ldexp(T(0.6), power), std::ldexp(T(0.8), power), 0}, {0, T(0.1), 0}}};
         CAPTURE(power);
         for (int both = 0; both < 2; ++both) {
@@ -286,7 +296,8 @@ TEST_CASE_TEMPLATE("splat: is made of any vector", T, float, double) {
             vertices.push_back({make_vector<V>(T(i % 10), T(i / 10), 0), make_vector<V>(0, 0, 1)});
         const auto map = map_of(vertices);
         const V n = make_vector<V>(0, 0, 1);
-        const Deposit<V, T> deposit{make_vector<V>(5, 5, 0), n, -n, T(2), {make_vector<V>(2, 0, 0), make_vector<V>(0, 4, 0)}};
+        const Deposit<V, T> deposit{
+            make_vector<V>(5, 5, 0), n, -n, T(2), {make_vector<V>(2, 0, 0), make_vector<V>(0, 4, 0)}};
         const auto outcome = make_splat(deposit, map, SplatPolicies<BiweightKernel, NoPixelFilter>{});
         REQUIRE(outcome.splat.has_value());
         CHECK(std::abs(double(outcome.splat->peak) - 1) <= 4 * epsilon<T>);

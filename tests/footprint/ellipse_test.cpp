@@ -200,7 +200,8 @@ TEST_CASE_TEMPLATE("ellipse: a scaled ellipse has the same shape bit for bit", T
         const T r = T(draw.in(0, 1));
         const auto wide = add_disk(e, r);
         // Areas of 1e-24 to 1e24, and 1e-60 to 1e60 in double.
-        for (const int power : std::is_same_v<T, float> ? std::array{-40, -20, 20, 40} : std::array{-100, -40, 40, 100}) {
+        for (const int power :
+             std::is_same_v<T, float> ? std::array{-40, -20, 20, 40} : std::array{-100, -40, 40, 100}) {
             const T scale = std::ldexp(T(1), power);
             const Ellipse<Vec<T>> scaled{scale * e.a, scale * e.b, e.normal};
             CAPTURE(power);
@@ -366,13 +367,14 @@ TEST_CASE_TEMPLATE("add_disk: is continuous through collapse", T, float, double)
             const T s = T(t), radius = T(0.5);
             const double tolerance = 2 * t * t + 64 * epsilon<T>;
             const Ellipse<Vec<T>> point{zero, zero, e.normal}, small{s * e.a, s * e.b, e.normal};
-            CHECK(largest_difference(covariance(add_disk(small, radius)), covariance(add_disk(point, radius))) <= tolerance);
+            CHECK(largest_difference(covariance(add_disk(small, radius)), covariance(add_disk(point, radius))) <=
+                  tolerance);
             const Ellipse<Vec<T>> needle{e.a, zero, e.normal}, nearly{e.a, s * e.b, e.normal};
             CHECK(largest_difference(covariance(add_disk(nearly, radius)), covariance(add_disk(needle, radius))) <=
                   tolerance);
             const Ellipse<Vec<T>> turned{zero, e.b, e.normal}, nearly_turned{s * e.a, e.b, e.normal};
-            CHECK(largest_difference(covariance(add_disk(nearly_turned, radius)), covariance(add_disk(turned, radius))) <=
-                  tolerance);
+            CHECK(largest_difference(covariance(add_disk(nearly_turned, radius)),
+                                     covariance(add_disk(turned, radius))) <= tolerance);
         }
     }
 }

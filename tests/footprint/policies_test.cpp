@@ -48,8 +48,8 @@ struct SaysNothing {
 
 template <class V>
 constexpr bool all_are_policies =
-    FootprintPolicy<DiscardCollapsed, V> && FootprintPolicy<WidenCollapsed, V> && FootprintPolicy<BoundMajorRadius, V> &&
-    FootprintPolicy<DiscardExcess, V> && FootprintPolicy<FallBackToDisk, V> && FootprintPolicy<KeepAll, V>;
+    FootprintPolicy<DiscardCollapsed, V>&& FootprintPolicy<WidenCollapsed, V>&& FootprintPolicy<BoundMajorRadius, V>&&
+        FootprintPolicy<DiscardExcess, V>&& FootprintPolicy<FallBackToDisk, V>&& FootprintPolicy<KeepAll, V>;
 static_assert(all_are_policies<glm::vec3> && all_are_policies<glm::dvec3>);
 static_assert(!FootprintPolicy<SaysNothing, glm::vec3>);
 static_assert(!FootprintPolicy<int, glm::vec3>);
@@ -76,7 +76,8 @@ TEST_CASE_TEMPLATE("DiscardCollapsed: discards what has no area and changes noth
 }
 
 // σ² + r² with r² = least² − σ_min² is least² for the minor one.
-TEST_CASE_TEMPLATE("WidenCollapsed: makes the minor radius the share of the spacing that it promises", T, float, double) {
+TEST_CASE_TEMPLATE("WidenCollapsed: makes the minor radius the share of the spacing that it promises", T, float,
+                   double) {
     const WidenCollapsed policy{0.75};
     for (const T minor : {T(0.1), T(0.01), T(0)}) {
         auto e = skewed<T>(T(2), minor);

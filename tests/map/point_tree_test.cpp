@@ -34,7 +34,6 @@ Cloud<V> random_cloud(int count, double size, double offset = 0) {
     return cloud;
 }
 
-
 /// Every awkward cloud by name.
 template <class V, class F>
 void for_each_cloud(const F& test) {
@@ -71,7 +70,8 @@ void for_each_cloud(const F& test) {
             two_scales.push_back(p);
     run("clusters within clusters", two_scales);
     const double huge = 0.9 * double(std::numeric_limits<scalar_t<V>>::max());
-    run("from one end of the number line to the other", {point<V>(-huge, 0, 0), point<V>(huge, 0, 1), point<V>(0, huge, 0)});
+    run("from one end of the number line to the other",
+        {point<V>(-huge, 0, 0), point<V>(huge, 0, 1), point<V>(0, huge, 0)});
 }
 
 template <class V>
@@ -201,7 +201,8 @@ TEST_CASE_TEMPLATE("point tree: a box meets exactly the leaves that brute force 
             for (std::uint32_t leaf = 0; leaf < boxes.size(); ++leaf) {
                 bool overlaps = true;
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    overlaps = overlaps && boxes[leaf].low[axis] <= box.high[axis] && box.low[axis] <= boxes[leaf].high[axis];
+                    overlaps =
+                        overlaps && boxes[leaf].low[axis] <= box.high[axis] && box.low[axis] <= boxes[leaf].high[axis];
                 if (overlaps)
                     expected.push_back(leaf);
             }
@@ -253,6 +254,48 @@ TEST_CASE_TEMPLATE("point tree: the nearest leaf is the one that brute force fin
     });
 }
 
+// Distances agree to four roundings: the compiler may fuse a product and a sum in one place and not in the other.
+TEST_CASE_TEMPLATE("point tree: the nearest points are those that brute force finds", T, float, double) {
+    using V = glm::vec<3, T>;
+    for_each_cloud<V>([](const Cloud<V>& cloud) {
+        const PointTree<V> tree = tree_of(cloud);
+        Draws draw(34);
+        for (int query = 0; query < 40; ++query) {
+            V place{0, 0, 0};
+            if (!cloud.empty()) {
+                const V corner{tree.bounds().high[0], tree.bounds().low[1], tree.bounds().high[2]};
+                place = tree.relative(cloud[std::size_t(draw.in(0, double(cloud.size())))]) +
+                        T(query % 4) * T(0.3) * corner;
+            }
+            std::vector<T> all;
+            for (const V& p : cloud)
+                all.push_back(length2(V(tree.relative(p) - place)));
+            std::sort(all.begin(), all.end());
+            for (const std::size_t wanted : {0u, 1u, 9u, 100u}) {
+                std::vector<Neighbour<T>> found(wanted);
+                const std::size_t count = tree.nearest(place, found);
+                REQUIRE(count == (std::min)(wanted, cloud.size()));
+                found.resize(count);
+                std::sort(found.begin(), found.end(),
+                          [](const auto& a, const auto& b) { return a.distance2 < b.distance2; });
+                std::vector<std::uint32_t> indices;
+                for (std::size_t i = 0; i < count; ++i) {
+                    const std::uint32_t slot = found[i].slot;
+                    const V d = V{tree.x()[slot], tree.y()[slot], tree.z()[slot]} - place;
+                    const auto same = [](T a, T b) {
+                        return a == b || std::abs(a - b) <= 4 * std::numeric_limits<T>::epsilon() * b;
+                    };
+                    REQUIRE(same(found[i].distance2, length2(d)));
+                    REQUIRE(same(found[i].distance2, all[i]));
+                    indices.push_back(tree.index(slot));
+                }
+                std::sort(indices.begin(), indices.end());
+                REQUIRE(std::adjacent_find(indices.begin(), indices.end()) == indices.end()); // no point twice
+            }
+        }
+    });
+}
+
 // 1e5 units out a float resolves 1/128; its differences to an origin amid the points are exact (Sterbenz).
 TEST_CASE("point tree: far from the origin no digit of the given positions is lost") {
     const auto cloud = random_cloud<glm::vec3>(500, 1, 1e5);
@@ -271,7 +314,8 @@ TEST_CASE("point tree: says which point is not finite") {
         auto cloud = random_cloud<glm::vec3>(20, 1);
         cloud[13] = bad;
         try {
-            (void)PointTree<glm::vec3>(cloud.size(), [&](std::size_t i) { return cloud[i]; }, "renderer::Map");
+            (void)PointTree<glm::vec3>(
+                cloud.size(), [&](std::size_t i) { return cloud[i]; }, "renderer::Map");
             FAIL("took it");
         } catch (const std::invalid_argument& error) {
             const std::string message = error.what();

@@ -103,7 +103,8 @@ TEST_CASE("thread executor: an exception reaches the caller and the pool goes on
             check_each_index_once(executor, 100);
         }
         // From every task at once: one of them.
-        CHECK_THROWS_AS(executor(50, [](std::size_t i) { throw std::out_of_range(std::to_string(i)); }), std::out_of_range);
+        CHECK_THROWS_AS(executor(50, [](std::size_t i) { throw std::out_of_range(std::to_string(i)); }),
+                        std::out_of_range);
         check_each_index_once(executor, 100);
     }
 }

@@ -80,7 +80,8 @@ TEST_CASE_TEMPLATE("rounding_error: bounds how far a computed hit is from its pl
         for (int i = 0; i < 300; ++i) {
             const double scale = std::pow(10.0, draw.in(-3, 5));
             const U origin = tests::narrow<U>(Wide(scale) * draw.in_cube());
-            const U on_plane = tests::narrow<U>(Wide(scale) * draw.in_cube()), normal = tests::narrow<U>(draw.direction());
+            const U on_plane = tests::narrow<U>(Wide(scale) * draw.in_cube()),
+                    normal = tests::narrow<U>(draw.direction());
             const U direction = tests::narrow<U>((tests::widen(on_plane) - tests::widen(origin)).unit());
             const T cosine = dot(normal, direction);
             if (std::abs(double(cosine)) < 0.05)

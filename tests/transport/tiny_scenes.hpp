@@ -38,7 +38,7 @@ struct Sheet {
     Event event = Event::deposit;
     F weight{1};
     T index_in_front = 1, index_behind = 1; ///< of refraction; in front is where the normal points
-    T radius = 0; ///< 0: without end
+    T radius = 0;                           ///< 0: without end
 };
 
 /// The nearest sheet along a ray, in the plainest way.
@@ -67,7 +67,8 @@ struct SheetScene {
     [[nodiscard]] Scattering<F, T> scatter(const SurfaceHit<V, Flat>& hit, const V& d, Sampler&) const {
         const Sheet<T, F>& sheet = sheets[hit.surface];
         const bool from_front = dot(d, sheet.normal) < T(0);
-        const T eta = from_front ? sheet.index_in_front / sheet.index_behind : sheet.index_behind / sheet.index_in_front;
+        const T eta =
+            from_front ? sheet.index_in_front / sheet.index_behind : sheet.index_behind / sheet.index_in_front;
         return {sheet.event, sheet.weight, eta};
     }
 };

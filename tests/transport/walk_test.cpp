@@ -53,7 +53,8 @@ TEST_CASE_TEMPLATE("walk: a photon by way of a mirror lands where its image shin
     const Vec<T> d{photon.direction.x, photon.direction.y, -photon.direction.z};
     const T flown = (h + 2) / d.z;
     const double tolerance = 64 * epsilon<T> * 10;
-    check_close(deposit->position, Vec<T>{photon.position.x + flown * d.x, photon.position.y + flown * d.y, 2}, tolerance);
+    check_close(deposit->position, Vec<T>{photon.position.x + flown * d.x, photon.position.y + flown * d.y, 2},
+                tolerance);
     check_close(deposit->direction, d, tolerance);
     check_close(deposit->normal, Vec<T>{0, 0, -1}, 0); // towards the photon, though the ceiling's normal is up
     for (std::size_t i = 0; i < 2; ++i) {
@@ -83,7 +84,8 @@ TEST_CASE_TEMPLATE("walk: a slab of glass shifts a ray and its tangents are thos
         const double c = std::cos(a), s = std::sin(a);
         const Vec<T> d{T(s), 0, T(-c)}, zero{0, 0, 0};
         // By the angle a, and around the axis: for a = 0 that is the other way across.
-        const Photon<Vec<T>, T> photon{{0, 0, T(t + h)}, d, T(1), {Tangent<Vec<T>>{zero, {T(c), 0, T(s)}}, {zero, {0, 1, 0}}}};
+        const Photon<Vec<T>, T> photon{
+            {0, 0, T(t + h)}, d, T(1), {Tangent<Vec<T>>{zero, {T(c), 0, T(s)}}, {zero, {0, 1, 0}}}};
         Statistics account;
         const auto deposit = follow(scene, photon, account);
         REQUIRE(deposit);
@@ -116,11 +118,13 @@ TEST_CASE_TEMPLATE("walk: a wavelength tangent spreads what a surface disperses"
             return {plain.event, plain.weight, plain.eta, {0, 0, 1}};
         }
     };
-    const Disperses scene{{{{{0, 0, 0}, {0, 0, 1}, Event::refract, T(1), 1, T(1.5)}, {{0, 0, -2}, {0, 0, 1}, Event::deposit}}}};
+    const Disperses scene{
+        {{{{0, 0, 0}, {0, 0, 1}, Event::refract, T(1), 1, T(1.5)}, {{0, 0, -2}, {0, 0, 1}, Event::deposit}}}};
     const double a = 0.7, s = std::sin(a) / 1.5, c = std::sqrt(1 - s * s);
     const auto two = collimated<T>({0, 0, 1}, {T(std::sin(a)), 0, T(-std::cos(a))});
     const Vec<T> zero{0, 0, 0};
-    const Photon<Vec<T>, T, 3> photon{two.position, two.direction, T(1), {two.differential[0], two.differential[1], {zero, zero}}};
+    const Photon<Vec<T>, T, 3> photon{
+        two.position, two.direction, T(1), {two.differential[0], two.differential[1], {zero, zero}}};
     Statistics account;
     const auto deposit = follow(scene, photon, account);
     REQUIRE(deposit);
@@ -129,7 +133,8 @@ TEST_CASE_TEMPLATE("walk: a wavelength tangent spreads what a surface disperses"
 
 TEST_CASE_TEMPLATE("walk: beyond the critical angle a refraction is a reflection", T, float, double) {
     // From inside of glass, at 60 degrees.
-    const SheetScene<T> scene{{{{0, 0, 0}, {0, 0, -1}, Event::refract, T(1), 1, T(1.5)}, {{0, 0, 2}, {0, 0, 1}, Event::deposit}}};
+    const SheetScene<T> scene{
+        {{{0, 0, 0}, {0, 0, -1}, Event::refract, T(1), 1, T(1.5)}, {{0, 0, 2}, {0, 0, 1}, Event::deposit}}};
     Statistics account;
     const auto deposit = follow(scene, collimated<T>({0, 0, 1}, {T(std::sqrt(3.0)), 0, -1}), account);
     REQUIRE(deposit);
@@ -140,9 +145,10 @@ TEST_CASE_TEMPLATE("walk: beyond the critical angle a refraction is a reflection
 TEST_CASE_TEMPLATE("walk: every way to end is booked with the flux that was left", T, float, double) {
     const T weight = T(0.75);
     const Sheet<T> mirror{{0, 0, 0}, {0, 0, 1}, Event::reflect, weight};
-    const auto down = collimated<T>({0, 0, 1}, {T(0.3), 0, -1}, T(2)), up = collimated<T>({0, 0, 1}, {T(0.3), 0, 1}, T(2));
-    const auto ends = [&](const SheetScene<T>& scene, const Photon<Vec<T>, T>& photon, const WalkLimits& limits, Fate fate,
-                          double flux, double absorbed) {
+    const auto down = collimated<T>({0, 0, 1}, {T(0.3), 0, -1}, T(2)),
+               up = collimated<T>({0, 0, 1}, {T(0.3), 0, 1}, T(2));
+    const auto ends = [&](const SheetScene<T>& scene, const Photon<Vec<T>, T>& photon, const WalkLimits& limits,
+                          Fate fate, double flux, double absorbed) {
         Statistics account;
         CHECK(!follow(scene, photon, account, limits));
         CHECK(account[fate].photons == 1);
@@ -171,7 +177,8 @@ TEST_CASE_TEMPLATE("walk: every way to end is booked with the flux that was left
     check_balance(account);
 }
 
-TEST_CASE_TEMPLATE("walk: between two mirrors a photon is terminated after the events that are allowed", T, float, double) {
+TEST_CASE_TEMPLATE("walk: between two mirrors a photon is terminated after the events that are allowed", T, float,
+                   double) {
     const SheetScene<T> scene{{{{0, 0, 0}, {0, 0, 1}, Event::reflect}, {{0, 0, 1}, {0, 0, 1}, Event::reflect}}};
     for (const unsigned most : {1u, 2u, 64u}) {
         Statistics account;
@@ -188,7 +195,8 @@ TEST_CASE_TEMPLATE("walk: between two mirrors a photon is terminated after the e
     CHECK(follow(once, collimated<T>({0, 0, 1}, {0, 0, -1}), account, {.specular_events = 1}));
 }
 
-TEST_CASE_TEMPLATE("walk: a photon without flux ends where it starts and one of nonsense is not summed", T, float, double) {
+TEST_CASE_TEMPLATE("walk: a photon without flux ends where it starts and one of nonsense is not summed", T, float,
+                   double) {
     const auto scene = mirror_above_floor<T>();
     const T infinity = std::numeric_limits<T>::infinity();
     Statistics account;
@@ -235,8 +243,8 @@ struct Broken : SheetScene<T> {
         if (!found)
             return std::nullopt;
         const Vec<T> zero{0, 0, 0};
-        Hit hit{found->distance, found->position, found->geometric_normal, found->shading_normal, {zero, zero, zero},
-                found->position_error, found->surface};
+        Hit hit{found->distance,    found->position,       found->geometric_normal, found->shading_normal,
+                {zero, zero, zero}, found->position_error, found->surface};
         spoil_hit(hit);
         return hit;
     }
@@ -259,7 +267,8 @@ TEST_CASE_TEMPLATE("walk: what a scene answers with nonsense never gets into a s
         CAPTURE(double(bad));
         const auto check = [&](const Broken<T>& scene) {
             Statistics account;
-            const auto deposit = follow(scene, from_point<T>({0, 0, 1}, {T(0.3), T(0.2), -1}, T(2)), account, {.roulette_after = 1});
+            const auto deposit =
+                follow(scene, from_point<T>({0, 0, 1}, {T(0.3), T(0.2), -1}, T(2)), account, {.roulette_after = 1});
             check_balance(account, deposit ? double(deposit->flux) : 0, deposit ? 1 : 0);
             return deposit;
         };
@@ -391,7 +400,8 @@ TEST_CASE_TEMPLATE("walk: reflects about the shading normal where the geometry a
     }
 }
 
-TEST_CASE_TEMPLATE("walk: a shading normal that sends light through a mirror is corrected and counted", T, float, double) {
+TEST_CASE_TEMPLATE("walk: a shading normal that sends light through a mirror is corrected and counted", T, float,
+                   double) {
     // At a low angle the tilted normal throws the photon down (second), or does not even face it (third and fourth).
     const Vec<T> d = normalize(Vec<T>{1, 0, T(-0.2)});
     for (const Vec<T>& shading :
@@ -413,9 +423,11 @@ TEST_CASE_TEMPLATE("walk: a shading normal that sends light through a mirror is 
 
 // Out of glass at a low angle, and the shading normal all but faces the ray: refracted about it, the ray would go up, on the
 // side that it came from. About the true normal it is reflected totally.
-TEST_CASE_TEMPLATE("walk: a shading normal that throws refracted light back is corrected and counted", T, float, double) {
-    const BentMirror<T> scene{{{{{0, 0, 0}, {0, 0, 1}, Event::refract, T(1), T(1.5), 1}, {{0, 0, 2}, {0, 0, 1}, Event::deposit}}},
-                              {T(-0.8), 0, T(0.6)}};
+TEST_CASE_TEMPLATE("walk: a shading normal that throws refracted light back is corrected and counted", T, float,
+                   double) {
+    const BentMirror<T> scene{
+        {{{{0, 0, 0}, {0, 0, 1}, Event::refract, T(1), T(1.5), 1}, {{0, 0, 2}, {0, 0, 1}, Event::deposit}}},
+        {T(-0.8), 0, T(0.6)}};
     const Vec<T> d = normalize(Vec<T>{1, 0, T(-0.1)});
     Statistics account;
     const auto deposit = follow(scene, collimated<T>({0, 0, 1}, d), account);
@@ -424,8 +436,10 @@ TEST_CASE_TEMPLATE("walk: a shading normal that throws refracted light back is c
     check_close(deposit->direction, Vec<T>{d.x, 0, -d.z}, 8 * epsilon<T>);
 }
 
-TEST_CASE_TEMPLATE("walk: a shading normal that keeps refracted light outside is corrected and counted", T, float, double) {
-    BentMirror<T> scene{{{{{0, 0, 0}, {0, 0, 1}, Event::refract, T(1), T(1.5), 1}, {{0, 0, -2}, {0, 0, 1}, Event::deposit}}}};
+TEST_CASE_TEMPLATE("walk: a shading normal that keeps refracted light outside is corrected and counted", T, float,
+                   double) {
+    BentMirror<T> scene{
+        {{{{0, 0, 0}, {0, 0, 1}, Event::refract, T(1), T(1.5), 1}, {{0, 0, -2}, {0, 0, 1}, Event::deposit}}}};
     // Out of glass, 34 degrees to the surface's normal but 9 to the shading one, which bends the ray up by little; and one
     // that the photon is behind.
     scene.shading = normalize(Vec<T>{T(0.9), 0, T(0.1)});
@@ -442,7 +456,8 @@ TEST_CASE_TEMPLATE("walk: a shading normal that keeps refracted light outside is
 TEST_CASE_TEMPLATE("walk: a curved mirror focuses alike whichever way its normals point", T, float, double) {
     struct Bowl {
         T side;
-        std::optional<SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>> intersect(const Vec<T>& o, const Vec<T>& d, T, T) const {
+        std::optional<SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>> intersect(const Vec<T>& o, const Vec<T>& d, T,
+                                                                           T) const {
             if (d.z < 0) { // the bowl's bottom, (0, 0, −2), radius 2; the shape operator of outward normals is 1/R
                 const Vec<T> n{0, 0, -side};
                 const T k = side / 2;
@@ -450,7 +465,8 @@ TEST_CASE_TEMPLATE("walk: a curved mirror focuses alike whichever way its normal
                     (o.z + 2) / -d.z, {0, 0, -2}, n, n, {{k, 0, 0}, {0, k, 0}, {0, 0, 0}}, 0, 0};
             }
             const Vec<T> n{0, 0, 1}, zero{0, 0, 0};
-            return SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>{T(0.5) - o.z, {0, 0, T(0.5)}, n, n, {zero, zero, zero}, 0, 1};
+            return SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>{
+                T(0.5) - o.z, {0, 0, T(0.5)}, n, n, {zero, zero, zero}, 0, 1};
         }
         Scattering<T, T> scatter(const SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>& hit, const Vec<T>&, Constant&) const {
             return {hit.surface == 0 ? Event::reflect : Event::deposit, 1, 1};
@@ -482,7 +498,8 @@ TEST_CASE_TEMPLATE("walk: Russian roulette keeps the mean flux and the account o
     for (int i = 0; i < count; ++i) {
         Sampler<RandomSequence> sampler(sequence, std::uint64_t(i));
         // 12 units down, 12 across: from the middle it crosses 0.5, then 1 each.
-        const auto deposit = walk(shaft, collimated<T>({T(0.5), 0, 0}, {1, 0, -1}), sampler, {.roulette_after = 4}, account);
+        const auto deposit =
+            walk(shaft, collimated<T>({T(0.5), 0, 0}, {1, 0, -1}), sampler, {.roulette_after = 4}, account);
         if (deposit) {
             CHECK(std::abs(double(deposit->flux) - 1) <= 32 * epsilon<T>);
             deposited += double(deposit->flux);
@@ -502,7 +519,8 @@ TEST_CASE_TEMPLATE("walk: Russian roulette is not played with photons that lost 
     const SheetScene<T> mirrors{{{{0, 0, 0}, {0, 0, 1}, Event::reflect}, {{0, 0, 1}, {0, 0, 1}, Event::reflect}}};
     Constant sampler{0.999};
     Statistics account;
-    CHECK(!walk(mirrors, collimated<T>({0, 0, T(0.5)}, {0, 0, 1}), sampler, {.specular_events = 20, .roulette_after = 1}, account));
+    CHECK(!walk(mirrors, collimated<T>({0, 0, T(0.5)}, {0, 0, 1}), sampler,
+                {.specular_events = 20, .roulette_after = 1}, account));
     CHECK(sampler.drawn == 0);
     CHECK(account.specular_events == 20);
 }
@@ -518,8 +536,8 @@ TEST_CASE_TEMPLATE("walk: Russian roulette with next to nothing left makes no in
 }
 
 TEST_CASE("walk: the survivor of Russian roulette carries its colour") {
-    const SheetScene<float, glm::vec3> scene{{{{0, 0, 0}, {0, 0, 1}, Event::reflect, {0.5f, 0.25f, 0}},
-                                              {{0, 0, 2}, {0, 0, 1}, Event::deposit}}};
+    const SheetScene<float, glm::vec3> scene{
+        {{{0, 0, 0}, {0, 0, 1}, Event::reflect, {0.5f, 0.25f, 0}}, {{0, 0, 2}, {0, 0, 1}, Event::deposit}}};
     const auto photon = collimated<float, glm::vec3>({0, 0, 1}, {0, 0, -1}, {2, 2, 2});
     for (const double draw : {0.2499, 0.2501}) {
         Statistics account;
@@ -545,7 +563,8 @@ struct Spawner : SheetScene<T> {
     };
     std::optional<Hit> intersect(const Vec<T>& o, const Vec<T>& d, T t_min, T t_max) const {
         const auto hit = SheetScene<T>::intersect(o, d, t_min, t_max);
-        return hit ? std::optional(Hit{hit->distance, hit->geometric_normal, {}, hit->position, hit->surface}) : std::nullopt;
+        return hit ? std::optional(Hit{hit->distance, hit->geometric_normal, {}, hit->position, hit->surface})
+                   : std::nullopt;
     }
     template <class Sampler>
     Scattering<T, T> scatter(const Hit& hit, const Vec<T>&, Sampler&) const {
@@ -553,7 +572,8 @@ struct Spawner : SheetScene<T> {
     }
     Vec<T> spawn(const Hit& hit, const Vec<T>& direction) const { return hit.where + T(1e-3) * direction; }
 };
-static_assert(!HasPosition<typename Spawner<float>::Hit, glm::vec3> && !HasPositionError<typename Spawner<float>::Hit, glm::vec3>);
+static_assert(!HasPosition<typename Spawner<float>::Hit, glm::vec3> &&
+              !HasPositionError<typename Spawner<float>::Hit, glm::vec3>);
 
 } // namespace
 
@@ -616,16 +636,21 @@ TEST_CASE_TEMPLATE("walk: a ray that starts off its surface still has flown the 
 // the curvature says of the other normal is freed of its part along this one before Igehy's formula gets it.
 TEST_CASE_TEMPLATE("walk: a corrected reflection differentiates about the normal that it used", T, float, double) {
     struct Corrected {
-        using Hit = SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>;
-        std::optional<Hit> intersect(const Vec<T>& o, const Vec<T>& d, T, T) const {
+        std::optional<SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>> intersect(const Vec<T>& o, const Vec<T>& d, T,
+                                                                           T) const {
             const bool mirror = d.z < 0;
             const T distance = mirror ? -o.z / d.z : (2 - o.z) / d.z;
             const Vec<T> n{0, 0, 1}, zero{0, 0, 0};
             const ShapeOperator<Vec<T>> bent{{T(0.3), T(0.1), T(0.5)}, {T(0.2), T(-0.4), T(0.7)}, zero};
-            return Hit{distance, o + distance * d, n, mirror ? Vec<T>{T(0.8), 0, T(0.6)} : n,
-                       mirror ? bent : ShapeOperator<Vec<T>>{zero, zero, zero}, 0, mirror ? 0u : 1u};
+            return SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>{distance,
+                                                             o + distance * d,
+                                                             n,
+                                                             mirror ? Vec<T>{T(0.8), 0, T(0.6)} : n,
+                                                             mirror ? bent : ShapeOperator<Vec<T>>{zero, zero, zero},
+                                                             0,
+                                                             mirror ? 0u : 1u};
         }
-        Scattering<T, T> scatter(const Hit& hit, const Vec<T>&, Constant&) const {
+        Scattering<T, T> scatter(const SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>& hit, const Vec<T>&, Constant&) const {
             return {hit.surface == 0 ? Event::reflect : Event::deposit, 1, 1};
         }
     };
@@ -667,7 +692,8 @@ TEST_CASE_TEMPLATE("walk: takes any vector", T, float, double) {
                 const T floor = t::z(d) < 0 ? T(0) : T(2), distance = (floor - t::z(o)) / t::z(d);
                 const V p = make_vector<V>(t::x(o) + distance * t::x(d), t::y(o) + distance * t::y(d), floor);
                 const V n = make_vector<V>(0, 0, 1);
-                return SurfaceHit<V, Flat>{distance, p, n, n, {}, rounding_error(o, distance, p), floor > T(1) ? 1u : 0u};
+                return SurfaceHit<V, Flat>{
+                    distance, p, n, n, {}, rounding_error(o, distance, p), floor > T(1) ? 1u : 0u};
             }
             Scattering<T, T> scatter(const SurfaceHit<V, Flat>& hit, const V&, Constant&) const {
                 return {hit.surface == 0 ? Event::reflect : Event::deposit, 1, 1};
