@@ -74,3 +74,21 @@ TEST_CASE("pixel filter width: is the square root of two thirds for the biweight
     CHECK(std::abs(pixel_filter_width<UniformKernel> - std::sqrt(1.0 / 3)) <= 2.3e-16);
     CHECK(std::abs(pixel_filter_width<EpanechnikovKernel> - std::sqrt(0.5)) <= 2.3e-16);
 }
+
+// By r2: −6/π (1 − r2), −2/π, −3/(2π r), 0, −9/2 k. Central differences in double with h = 1e-5 are off by h²/6 times the
+// third derivative, which is largest for the cone at 0.045, 9/(8π) r⁻⁵ < 900, plus rounding, epsilon / h: below 1e-7.
+TEST_CASE("kernels: have the derivatives of their formulas inside the disk") {
+    const double h = 1e-5;
+    const auto slope = [&](const auto& kernel, double r2) { return (kernel(r2 + h) - kernel(r2 - h)) / (2 * h); };
+    for (int i = 5; i < 100; ++i) {
+        const double r2 = 0.01 * i - 0.005;
+        CAPTURE(r2);
+        CHECK(std::abs(slope(BiweightKernel{}, r2) + 6 / pi<double> * (1 - r2)) < 1e-7);
+        CHECK(std::abs(slope(EpanechnikovKernel{}, r2) + 2 / pi<double>) < 1e-7);
+        CHECK(std::abs(slope(ConeKernel{}, r2) + 1.5 / (pi<double> * std::sqrt(r2))) < 1e-7);
+        CHECK(slope(UniformKernel{}, r2) == 0);
+        CHECK(std::abs(slope(TruncatedGaussianKernel{}, r2) + 4.5 * TruncatedGaussianKernel{}(r2)) < 1e-7);
+    }
+    // The default's slope reaches zero at the edge, so that a splat has no rim: from outside it is zero as well.
+    CHECK(std::abs(slope(BiweightKernel{}, 1.0)) < 2 * h);
+}

@@ -7,6 +7,7 @@
 
 #include "nephroid/estimate/splat.hpp"
 #include "nephroid/transport/executor.hpp"
+#include "nephroid/transport/sink.hpp"
 
 #include <type_traits>
 
@@ -103,9 +104,9 @@ public:
 
     /// Calls sink(vertex index, sum) once for every vertex, in the map's order, with the irradiance (or radiance)
     /// of all photons since the last `clear`.
-    template <class Sink>
-        requires std::invocable<Sink&, std::size_t, const F&>
-    void for_each(Sink&& sink) const {
+    template <class S>
+        requires Sink<std::remove_reference_t<S>, F>
+    void for_each(S&& sink) const {
         for (const TreeLeaf& leaf : map_->tree().leaves())
             for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
                 sink(std::size_t(map_->tree().index(slot)), sums_[slot]);

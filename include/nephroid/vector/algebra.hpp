@@ -12,9 +12,8 @@ namespace nephroid {
 // Component-wise operators for every vector. Code inside namespace nephroid finds them by ordinary look-up and the
 // type's own by argument-dependent look-up; where the type has a linear operator of exactly this shape, that one is
 // the better match and is used (GLM, SSE vectors), and where its operator would convert, build an expression
-// template or do not exist at all, these are. User code does not see them (without `using
-// namespace nephroid`). Traits with a member
-// `native_operators = true` take them out of the running.
+// template or do not exist at all, these are. User code does not see them (without `using namespace nephroid`).
+// Traits with a member `native_operators = true` take them out of the running.
 namespace detail {
 template <class V>
 concept UsesOurOperators = Vector3<V> && !requires { requires vector_traits<V>::native_operators; };
