@@ -190,20 +190,21 @@ private:
         return true;
     }
 
-    template <class Event, class Scattering>
-    void follow(const Event& event, const V& normal, const H& hit, const Scattering& scattering) {
+    /// @param turn  a Reflection or a Refraction
+    template <class Turn, class Scattering>
+    void follow(const Turn& turn, const V& normal, const H& hit, const Scattering& scattering) {
         const T side = facing(hit);
         for (std::size_t i = 0; i < N; ++i) {
             Tangent<V>& tangent = photon_.differential[i];
             const V d_shading = side * V(hit.curvature(tangent.d_position));
             const V d_normal = d_shading - dot(normal, d_shading) * normal; // the normal in use may be the geometric one
-            if constexpr (requires { event.differentiate(d_normal, d_normal, T(scattering.d_eta[i])); })
-                tangent.d_direction = event.differentiate(tangent.d_direction, d_normal, T(scattering.d_eta[i]));
+            if constexpr (requires { turn.differentiate(d_normal, d_normal, T(scattering.d_eta[i])); })
+                tangent.d_direction = turn.differentiate(tangent.d_direction, d_normal, T(scattering.d_eta[i]));
             else
-                tangent.d_direction = event.differentiate(tangent.d_direction, d_normal);
+                tangent.d_direction = turn.differentiate(tangent.d_direction, d_normal);
             tangent = within_range(tangent);
         }
-        photon_.direction = event.direction();
+        photon_.direction = turn.direction();
     }
 
     const S& scene_;
