@@ -68,6 +68,8 @@ struct SineCosine {
     // Half of π, in three doubles.
     static const Wide quarter = Wide(1.5707963267948966) + Wide(6.123233995736766e-17) + Wide(-1.4973849048591833e-33);
     const double turns = std::nearbyint(static_cast<double>(angle / quarter));
+    if (!std::isfinite(turns)) // a trial path that has left the scene
+        return {angle - angle, angle - angle};
     const Wide x = angle - Wide(turns) * quarter, x2 = x * x;
     Wide sine(0), cosine(0);
     for (int n = 30; n > 0; n -= 2) { // |x| <= π/4: the next term is below 1e-36
