@@ -16,6 +16,15 @@
 namespace nephroid {
 
 /// Says how the shading normal changes: `curvature(dx)` is dn.
+///
+/// ```cpp
+/// struct Bumps { // a renderer's own: a plane z = 0 with the normal of z = a sin(k x)
+///     float a, k, x;
+///     Vec3 operator()(const Vec3& d_position) const { // by the chain rule; exact where the slope is small
+///         return Vec3(a * k * k * sin(k * x) * d_position.x, 0, 0);
+///     }
+/// };
+/// ```
 template <class C, class V>
 concept Curvature = Vector3<V> && requires(const C curvature, const V d_position) {
     { curvature(d_position) } -> std::convertible_to<V>;

@@ -9,25 +9,28 @@
 namespace nephroid {
 
 /// How the library reads a user's flux type where one number is needed: for the flux account and for Russian
-/// roulette. Floating-point flux and any `Vector3` (an RGB colour in the renderer's own vector) come along; another
+/// roulette. A scalar (vector/scalar.hpp) and any `Vector3` (an RGB colour in the renderer's own vector) come along; another
 /// type specialises this with
 ///
 /// ```cpp
-/// static double power(const MySpectrum& f);   // watts: a fixed non-negative linear function, say the bands' mean
-/// static MySpectrum zero();
+/// template <> struct nephroid::flux_traits<MySpectrum> {
+///     static double power(const MySpectrum& f) { return f.mean(); } // watts: fixed, linear, not negative
+///     static MySpectrum zero() { return MySpectrum(0.0f); }
+/// };
 /// ```
+///
+/// and has a + b, a * b band by band, and a * s for a number of the geometry's scalar.
 template <class F>
 struct flux_traits;
 
-template <class F>
-    requires std::floating_point<F>
+template <Scalar F>
 struct flux_traits<F> {
-    [[nodiscard]] static constexpr double power(F f) { return double(f); }
+    [[nodiscard]] static constexpr double power(const F& f) { return double(f); }
     [[nodiscard]] static constexpr F zero() { return F(0); }
 };
 
 template <Vector3 F>
-    requires(!std::floating_point<F>)
+    requires(!Scalar<F>)
 struct flux_traits<F> {
     using t = vector_traits<F>;
     [[nodiscard]] static constexpr double power(const F& f) {
@@ -57,5 +60,29 @@ template <class F, class T>
 concept ScalesFlux = requires(const F f, const T s) {
     { (f * s) } -> std::convertible_to<F>;
 };
+
+namespace detail {
+template <class F>
+consteval bool explain_flux() {
+    static_assert(std::copyable<F>, "nephroid: a flux must be copyable, and not const or a reference");
+    static_assert(AddsAndMultiplies<F>,
+                  "nephroid: the flux type lacks a + b or a * b of two fluxes (emission/flux.hpp)");
+    static_assert(HasPower<F>, "nephroid: nephroid::flux_traits<F> is missing for this flux type, or its power(f) or "
+                               "zero() (emission/flux.hpp)");
+    return false;
+}
+
+template <class F, class V>
+consteval bool explain_scaling() {
+    static_assert(ScalesFlux<F, scalar_t<V>>,
+                  "nephroid: the flux type lacks f * s with the vector's scalar (emission/flux.hpp)");
+    return false;
+}
+
+/// For class templates: a flux that the vector's scalar scales, or an error that says why not.
+template <class F, class V>
+concept MustBeFluxFor = MustBeVector<V> &&(Flux<F> || explain_flux<F>()) &&
+                        (ScalesFlux<F, scalar_t<V>> || explain_scaling<F, V>());
+} // namespace detail
 
 } // namespace nephroid

@@ -55,8 +55,54 @@ concept EstimatesPower = requires(const L light) {
 /// - `power()`: an estimate of that flux, `flux_traits::power`'s unit. Photons are shared among lights by it, so it
 ///   may be zero only where the flux is.
 ///
+/// ```cpp
+/// struct MyLaser { // a light of the renderer's own: a beam of this radius
+///     using vector = Vec3;
+///     using flux_type = Colour;
+///     Vec3 position, direction; // direction is unit
+///     float radius;
+///     Colour flux;
+///
+///     template <class Samples>
+///     nephroid::Photon<Vec3, Colour> emit(Samples& samples, const nephroid::Spread<float>& spread) const {
+///         const float u1 = samples.template next<float>(), u2 = samples.template next<float>();
+///         const auto disk = nephroid::concentric_disk(u1, u2);
+///         const nephroid::Frame<Vec3> frame = nephroid::frame_about(direction);
+///         const float length = spread.length(nephroid::pi<float> * radius * radius); // the domain is the beam's section
+///         const Vec3 zero(0, 0, 0);
+///         return {position + radius * disk.x * frame.u + radius * disk.y * frame.v, direction,
+///                 flux * (1 / spread.photons),
+///                 {nephroid::Tangent<Vec3>{length * frame.u, zero}, nephroid::Tangent<Vec3>{length * frame.v, zero}}};
+///     }
+///     double power() const { return nephroid::flux_traits<Colour>::power(flux); }
+/// };
+/// ```
+///
 /// The compiler checks the calls; `tests/emission/light/light_laws.hpp` checks the meaning, for every model.
 template <class L>
 concept Light = std::copyable<L> && detail::SaysWhatItEmits<L> && detail::EmitsPhotons<L> && detail::EstimatesPower<L>;
+
+namespace detail {
+template <class L>
+consteval bool explain_light() {
+    static_assert(SaysWhatItEmits<L>,
+                  "nephroid: the light lacks its types `vector` (with vector_traits) and `flux_type` "
+                  "(with flux_traits) (emission/light.hpp)");
+    static_assert(EmitsPhotons<L>, "nephroid: the light lacks emit(samples, spread) const -> Photon<vector, flux_type> "
+                                   "(emission/light.hpp)");
+    static_assert(EstimatesPower<L>, "nephroid: the light lacks power() const -> double (emission/light.hpp)");
+    static_assert(std::copyable<L>, "nephroid: a light must be copyable");
+    return false;
+}
+
+template <class L, class V, class F>
+concept EmitsFor = std::same_as<typename L::vector, V> && std::same_as<typename L::flux_type, F>;
+
+template <class L, class V, class F>
+consteval bool explain_emission() {
+    static_assert(EmitsFor<L, V, F>, "nephroid: the light's `vector` and `flux_type` are not those that are summed up");
+    return false;
+}
+} // namespace detail
 
 } // namespace nephroid

@@ -5,6 +5,18 @@
 ///   - `operator()(r2)` for the squared radius r2 = |x|² >= 0: k >= 0, zero for r2 >= 1, and ∫ k over the disk = 1.
 ///     It should be free of branches (`keep_if`): it is called in a loop that the compiler vectorises;
 ///   - `second_moment`: ∫ x² k over the disk, the variance along one axis.
+///
+/// ```cpp
+/// struct Triweight { // 4/π (1 − r²)³
+///     static constexpr double second_moment = 1.0 / 10;
+///     template <nephroid::Scalar T>
+///     T operator()(const T& radius2) const {
+///         const T rest = nephroid::keep_if(radius2 < T(1), T(T(1) - radius2));
+///         return T(4) / nephroid::pi<T> * rest * rest * rest;
+///     }
+/// };
+/// PhotonSplatter<V, F, SplatPolicies<Triweight>> splatter(map);
+/// ```
 #pragma once
 
 #include "nephroid/vector/stable.hpp"

@@ -14,6 +14,15 @@ enum class Verdict : unsigned char { kept, bounded, discarded };
 
 /// A policy: `policy(ellipse, limit)` may change the ellipse. `limit` is a length from the eye path map in world
 /// units: for a collapse policy the local spacing of its vertices, for an excess policy the diagonal of its bounds.
+///
+/// ```cpp
+/// struct DiscardNeedles { // an excess policy: no footprint 100 times as long as wide
+///     template <nephroid::Vector3 V>
+///     nephroid::Verdict operator()(nephroid::Ellipse<V>& ellipse, nephroid::scalar_t<V>) const {
+///         return nephroid::axis_ratio(ellipse) < 0.01f ? nephroid::Verdict::discarded : nephroid::Verdict::kept;
+///     }
+/// };
+/// ```
 template <class P, class V>
 concept FootprintPolicy = Vector3<V> && requires(const P policy, Ellipse<V>& ellipse, scalar_t<V> limit) {
     { policy(ellipse, limit) } -> std::same_as<Verdict>;

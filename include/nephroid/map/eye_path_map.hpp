@@ -23,7 +23,7 @@ struct EyePathLeaf {
 /// ```cpp
 /// const nephroid::EyePathMap map(vertices, &MyVertex::position, &MyVertex::normal);
 /// ```
-template <Vector3 V>
+template <detail::MustBeVector V>
 class EyePathMap {
 public:
     using T = scalar_t<V>;

@@ -61,7 +61,7 @@ template <Scalar T>
 
     detail::sort_nearest(points, middle, probes);
     const std::vector<detail::Point3<T>> centres(points.begin(), points.begin() + std::ptrdiff_t(probes));
-    std::array<T, most_probes> spacing2{};
+    std::vector<T> spacing2(probes);
     for (std::size_t i = 0; i < probes; ++i) {
         detail::sort_nearest(points, centres[i], neighbours + 1); // itself comes first, at distance 0
         T sum(0);
@@ -69,7 +69,7 @@ template <Scalar T>
             sum = sum + detail::distance2(points[k], centres[i]);
         spacing2[i] = sum / lattice;
     }
-    std::sort(spacing2.begin(), spacing2.begin() + std::ptrdiff_t(probes));
+    std::sort(spacing2.begin(), spacing2.end());
     return sqrt(T(0.5) * (spacing2[(probes - 1) / 2] + spacing2[probes / 2]));
 }
 

@@ -11,6 +11,16 @@ namespace nephroid {
 ///
 /// @tparam C  how the shading normal changes: Flat, ShapeOperator, ParametricCurvature, InterpolatedCurvature,
 ///            AnyCurvature of several, or your own (differential/curvature.hpp)
+///
+/// ```cpp
+/// struct MyHit { // a renderer's own: these names, and whatever else it likes
+///     float distance;
+///     Vec3 geometric_normal;
+///     nephroid::ParametricCurvature<Vec3> curvature; // {dpdu, dpdv, dndu, dndv}
+///     float position_error;
+///     const Material* material;
+/// };
+/// ```
 template <Vector3 V, Curvature<V> C>
 struct SurfaceHit {
     scalar_t<V> distance;       ///< along the unit direction, world units

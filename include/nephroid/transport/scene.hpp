@@ -11,8 +11,8 @@ namespace nephroid {
 /// that reads like std::optional of a hit. Called from several threads at once.
 template <class S, class V>
 concept Intersects = Vector3<V> && requires(const S& scene, const V& v, scalar_t<V> t) {
-    { bool(scene.intersect(v, v, t, t)) };
-    { *scene.intersect(v, v, t, t) };
+    {bool(scene.intersect(v, v, t, t))};
+    {*scene.intersect(v, v, t, t)};
 };
 
 template <class S, class V>
@@ -37,11 +37,29 @@ concept RayTracer = Intersects<S, V> && Hit<hit_t<S, V>, V> && KeepsRaysOffSurfa
 template <class S, class V, class Sampler>
 concept Scatters = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& v, Sampler& sampler) {
     { scene.scatter(hit, v, sampler).event } -> std::convertible_to<Event>;
-    { scene.scatter(hit, v, sampler).weight };
+    {scene.scatter(hit, v, sampler).weight};
     { scene.scatter(hit, v, sampler).eta } -> std::convertible_to<scalar_t<V>>;
 };
 
 /// All that a photon's walk needs. One object: a renderer's scene, or a small struct that points at it.
+///
+/// ```cpp
+/// struct Adapter {
+///     const MyScene& scene;
+///
+///     std::optional<MyHit> intersect(const Vec3& origin, const Vec3& direction, float t_min, float t_max) const {
+///         MyRecord record;
+///         if (!scene.hit(MyRay(origin, direction), t_min, t_max, record))
+///             return std::nullopt;
+///         return MyHit(record); // transport/hit.hpp
+///     }
+///     nephroid::Scattering<Colour, float> scatter(const MyHit& hit, const Vec3& direction, auto& random) const {
+///         if (hit.material->is_diffuse())
+///             return nephroid::Scattering<Colour, float>::deposit(); // transport/scattering.hpp
+///         return nephroid::Scattering<Colour, float>::reflect(hit.material->tint);
+///     }
+/// };
+/// ```
 template <class S, class V, class Sampler>
 concept Scene = RayTracer<S, V> && Scatters<S, V, Sampler>;
 
@@ -50,7 +68,36 @@ concept Scene = RayTracer<S, V> && Scatters<S, V, Sampler>;
 /// these pay nothing.
 template <class S, class V>
 concept Absorbs = requires(const S& scene, const typename S::medium& medium, scalar_t<V> distance) {
-    { scene.transmittance(medium, distance) };
+    {scene.transmittance(medium, distance)};
 };
+
+namespace detail {
+/// What a scene lacks, as the first line of the compiler's message.
+template <class S, class V, class Sampler>
+consteval bool explain_scene() {
+    static_assert(Intersects<S, V>, "nephroid: the scene lacks intersect(origin, direction, t_min, t_max) const -> an "
+                                    "optional hit (transport/scene.hpp)");
+    if constexpr (Intersects<S, V>) {
+        using H = hit_t<S, V>;
+        static_assert(HasDistance<H, V>, "nephroid: the scene's hit lacks `distance` (transport/hit.hpp)");
+        static_assert(HasGeometricNormal<H, V>,
+                      "nephroid: the scene's hit lacks `geometric_normal` (transport/hit.hpp)");
+        static_assert(SaysHowItsNormalChanges<H, V>,
+                      "nephroid: the scene's hit lacks `curvature`, which says how its normal changes; "
+                      "nephroid::Flat is the answer for planes alone (differential/curvature.hpp)");
+        static_assert(KeepsRaysOffSurfaces<S, V>, "nephroid: the scene's hit lacks `position_error`, or the scene "
+                                                  "spawn(hit, direction) const (transport/scene.hpp)");
+        if constexpr (KeepsRaysOffSurfaces<S, V>) // without which nothing is asked of scatter
+            static_assert(Scatters<S, V, Sampler>,
+                          "nephroid: the scene lacks scatter(hit, direction, sampler) const -> event, "
+                          "weight, eta (transport/scattering.hpp)");
+    }
+    return false;
+}
+
+/// For functions without an overload, where a wrong type can only be a mistake: Scene, or an error that says why not.
+template <class S, class V, class Sampler>
+concept MustBeScene = Scene<S, V, Sampler> || explain_scene<S, V, Sampler>();
+} // namespace detail
 
 } // namespace nephroid

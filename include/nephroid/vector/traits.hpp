@@ -50,6 +50,24 @@ concept MakesFromComponents = HasScalar<V> && requires(const typename vector_tra
 template <class V>
 concept Vector3 = std::copyable<V> && HasVectorTraits<V> && HasScalar<V> && HasComponents<V> && MakesFromComponents<V>;
 
+namespace detail {
+/// What is missing, as the first line of the compiler's message.
+template <class V>
+consteval bool explain_vector() {
+    static_assert(std::copyable<V>, "nephroid: a vector must be copyable, and not const or a reference");
+    static_assert(HasVectorTraits<V>, "nephroid: nephroid::vector_traits<V> is missing for this vector type: specialise "
+                                      "it (vector/traits.hpp), or include nephroid/vector/glm.hpp for GLM's");
+    static_assert(HasScalar<V>, "nephroid: vector_traits<V>::scalar is missing or no scalar (vector/scalar.hpp)");
+    static_assert(HasComponents<V>, "nephroid: vector_traits<V>::x(v), y(v) or z(v) is missing or not a scalar");
+    static_assert(MakesFromComponents<V>, "nephroid: vector_traits<V>::make(x, y, z) is missing or makes no vector");
+    return false;
+}
+
+/// For class templates, where a wrong type can only be a mistake: Vector3, or an error that says why not.
+template <class V>
+concept MustBeVector = Vector3<V> || explain_vector<V>();
+} // namespace detail
+
 template <Vector3 V>
 using scalar_t = typename vector_traits<V>::scalar;
 

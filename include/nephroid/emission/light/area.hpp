@@ -24,8 +24,8 @@ struct LightPoint {
 /// Towards a target that fills less than π steradian the direction is uniform in the cone towards it; photons of the
 /// cone that are below the horizon carry no flux. Elsewhere, and without a target, it has the density cos/π. The
 /// choice is the point's own, so that a light may reach into its target.
-template <Vector3 V, Flux F>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F>
+    requires detail::MustBeFluxFor<F, V>
 class AreaEmission {
 public:
     using T = scalar_t<V>;

@@ -15,8 +15,8 @@ namespace nephroid {
 /// Emits in one direction, uniformly from a patch. Draws 2 samples.
 ///
 /// The patch is what the light is aimed with: the smaller it is about the specular objects' shadow, the better.
-template <Vector3 V, Flux F>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F>
+    requires detail::MustBeFluxFor<F, V>
 class DirectionalLight {
 public:
     using vector = V;

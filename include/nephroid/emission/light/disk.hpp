@@ -8,8 +8,8 @@ namespace nephroid {
 
 /// Emits from a disk along its normal's side, aimed as `AreaEmission` says. Draws 4 samples: two for the position, two
 /// for the direction.
-template <Vector3 V, Flux F>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F>
+    requires detail::MustBeFluxFor<F, V>
 class DiskLight {
 public:
     using vector = V;

@@ -14,8 +14,8 @@ namespace nephroid {
 /// Emits from triangles, on the side from which their vertices run counter-clockwise, aimed as `AreaEmission` says.
 /// Draws 4 samples: two for the position, two for the direction. The first chooses the triangle by area and, stretched
 /// to [0, 1) again, a coordinate in it; it is drawn as a double, so that this leaves digits enough.
-template <Vector3 V, Flux F>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F>
+    requires detail::MustBeFluxFor<F, V>
 class MeshLight {
 public:
     using vector = V;

@@ -22,8 +22,8 @@ template <Vector3 V>
 
 /// Emits from one point, uniformly into the cone towards its target, or into every direction: without a target, and
 /// from inside of it. Draws 2 samples.
-template <Vector3 V, Flux F>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F>
+    requires detail::MustBeFluxFor<F, V>
 class PointLight {
 public:
     using vector = V;

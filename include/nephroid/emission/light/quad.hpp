@@ -8,8 +8,8 @@ namespace nephroid {
 
 /// Emits from the parallelogram corner + [0, 1] edge_u + [0, 1] edge_v, on the side of edge_u × edge_v, aimed as
 /// `AreaEmission` says. Draws 4 samples: two for the position, two for the direction.
-template <Vector3 V, Flux F>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F>
+    requires detail::MustBeFluxFor<F, V>
 class QuadLight {
 public:
     using vector = V;

@@ -8,8 +8,8 @@ namespace nephroid {
 
 /// Emits from a sphere outwards, aimed as `AreaEmission` says; aimed only from the cap whose points have something of
 /// the target above their horizon. Draws 4 samples: two for the position, two for the direction.
-template <Vector3 V, Flux F>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F>
+    requires detail::MustBeFluxFor<F, V>
 class SphereLight {
 public:
     using vector = V;

@@ -8,8 +8,8 @@ namespace nephroid {
 
 /// Emits from one point, uniformly into its outer cone or, where that is the smaller one, into the cone towards its
 /// target; what the falloff leaves is in each photon's flux. Draws 2 samples.
-template <Vector3 V, Flux F>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F>
+    requires detail::MustBeFluxFor<F, V>
 class SpotLight {
 public:
     using vector = V;

@@ -58,10 +58,16 @@ template <std::uint32_t Base>
 inline constexpr auto halton_reversed_digits = [] {
     constexpr auto permutation = faure_permutation<Base>();
     std::array<std::uint16_t, halton_block_size(Base)> reversed{};
-    // With one digit more in front, the others move back by one: the table grows from itself.
+    // With one digit more in front, the others move back by one: the table grows from itself. Few steps for each entry, as
+    // compilers take about a microsecond for each; the first digit's part comes last, as it is what the others are made of.
     for (std::size_t known = 1; known < reversed.size(); known *= Base) {
-        for (std::size_t i = known * Base; i-- > 0;)
-            reversed[i] = static_cast<std::uint16_t>(reversed[i % known] * Base + permutation[i / known]);
+        for (std::size_t i = 0; i < known; ++i)
+            reversed[i] = static_cast<std::uint16_t>(reversed[i] * Base);
+        for (std::size_t digit = Base, end = known * Base; digit-- > 1; end -= known) {
+            const std::uint32_t front = permutation[digit];
+            for (std::size_t i = 0, to = end - known; i < known; ++i, ++to)
+                reversed[to] = static_cast<std::uint16_t>(reversed[i] + front);
+        }
     }
     return reversed;
 }();
