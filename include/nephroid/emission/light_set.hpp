@@ -59,6 +59,8 @@ public:
         if (found == power_up_to_.end()) // no light has any power: each photon is the first one's, without flux
             return emit_from(0, samples, spread);
         const std::size_t chosen = static_cast<std::size_t>(found - power_up_to_.begin());
+        if constexpr (requires { samples.chose(chosen); })
+            samples.chose(chosen);
         const T probability = static_cast<T>(power_[chosen] / total_power_);
         return emit_from(chosen, samples, Spread<T>{spread.photons * probability, spread.smoothing});
     }

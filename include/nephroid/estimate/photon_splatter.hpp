@@ -25,8 +25,8 @@ struct Irradiance {};
 /// @tparam Response  Irradiance, or a callable (vertex index, photon direction) -> a factor for the photon's
 ///                   irradiance there: the BRDF f_r(x, −ω_p, ω) times the path's throughput; what is summed is then
 ///                   radiance. Called from several threads at once.
-template <Vector3 V, Flux F, class Policies = SplatPolicies<>, class Response = Irradiance>
-    requires ScalesFlux<F, scalar_t<V>>
+template <class V, class F, class Policies = SplatPolicies<>, class Response = Irradiance>
+    requires detail::MustBeFluxFor<F, V>
 class PhotonSplatter {
 public:
     using T = scalar_t<V>;
@@ -105,7 +105,7 @@ public:
     /// Calls sink(vertex index, sum) once for every vertex, in the map's order, with the irradiance (or radiance)
     /// of all photons since the last `clear`.
     template <class S>
-        requires Sink<std::remove_reference_t<S>, F>
+        requires detail::MustBeSink<std::remove_reference_t<S>, F>
     void for_each(S&& sink) const {
         for (const TreeLeaf& leaf : map_->tree().leaves())
             for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)

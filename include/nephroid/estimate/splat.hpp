@@ -2,6 +2,7 @@
 /// @file  A photon made ready to be splatted: its footprint, filtered, bounded, and turned into a matrix.
 #pragma once
 
+#include "nephroid/estimate/second_order/policy.hpp"
 #include "nephroid/footprint/kernel.hpp"
 #include "nephroid/footprint/policies.hpp"
 #include "nephroid/map/eye_path_map.hpp"
@@ -30,14 +31,48 @@ concept FiltersPixels = std::same_as<P, NoPixelFilter> || requires(const P filte
     { filter.width_scale } -> std::convertible_to<double>;
 };
 
+/// The footprint is the photon differential's [Frisvad et al. 2014]. The default.
+struct DifferentialFootprint {
+    template <Vector3 V, Flux F, std::size_t N>
+        requires(N >= 2)
+    [[nodiscard]] std::optional<Ellipse<V>> operator()(const Deposit<V, F, N>& deposit) const {
+        if (!std::all_of(deposit.d_position.begin(), deposit.d_position.end(),
+                         [](const V& d) { return all_finite(d); }))
+            return std::nullopt;
+        return footprint(deposit.d_position, deposit.normal);
+    }
+};
+
+/// The footprint is a disk of this radius, the same for every photon: splatting with a fixed bandwidth, which needs no
+/// differentials (`WithoutTangents`).
+/// Source: Lavignotte and Paulin 2003, as Frisvad et al. 2014 compare with it.
+struct FixedFootprint {
+    double radius; ///< world units, > 0
+    template <Vector3 V, Flux F, std::size_t N>
+    [[nodiscard]] std::optional<Ellipse<V>> operator()(const Deposit<V, F, N>& deposit) const {
+        const Frame<V> frame = frame_about(deposit.normal);
+        return Ellipse<V>{scalar_t<V>(radius) * frame.u, scalar_t<V>(radius) * frame.v, deposit.normal};
+    }
+};
+
+/// If this is what the compiler names: the policies shape footprints by photon differentials, and these photons carry
+/// none. Leave `WithoutTangents` out, or choose FixedFootprint.
+template <class P, class D, class V>
+concept ShapesFootprint = requires(const P shape, const D& deposit) {
+    { shape(deposit) } -> std::same_as<std::optional<Ellipse<V>>>;
+};
+
 /// How a photon becomes a splat. Every member is a policy chosen by its type; the defaults suit most scenes.
 template <class K = BiweightKernel, class Filter = PixelFilter, class Collapse = DiscardCollapsed,
-          class Excess = BoundMajorRadius>
+          class Excess = BoundMajorRadius, class Shape = DifferentialFootprint, class Order = SecondOrder>
 struct SplatPolicies {
     K kernel{};
     Filter filter{};
     Collapse collapse{};
     Excess excess{};
+    Shape shape{};
+    /// How `splat_caustics` places and sizes footprints: SecondOrder, or FirstOrder.
+    Order order{};
     /// Against topological bias: a vertex further from the photon's tangent plane than this many minor radii of the
     /// footprint (and than the spacing of the vertices) does not receive. Larger lets long footprints bend further around
     /// curved surfaces, and leak further through thin ones. [Frisvad et al. 2014, after eq. 12; the minor radius is
@@ -67,10 +102,11 @@ struct SplatOutcome {
 };
 
 /// Turns a photon's deposit into a splat onto a map.
-template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collapse, class Excess>
-    requires Kernel<K, scalar_t<V>> && FiltersPixels<Filter> && FootprintPolicy<Collapse, V> && FootprintPolicy<Excess, V>
+template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collapse, class Excess, class Shape, class Order>
+    requires Kernel<K, scalar_t<V>> && FiltersPixels<Filter> && FootprintPolicy<Collapse, V> &&
+             FootprintPolicy<Excess, V> && ShapesFootprint<Shape, Deposit<V, F, N>, V>
 [[nodiscard]] SplatOutcome<V, F> make_splat(const Deposit<V, F, N>& deposit, const EyePathMap<V>& map,
-                                            const SplatPolicies<K, Filter, Collapse, Excess>& policies) {
+                                            const SplatPolicies<K, Filter, Collapse, Excess, Shape, Order>& policies) {
     using T = scalar_t<V>;
     using t = vector_traits<V>;
     SplatOutcome<V, F> outcome{};
@@ -79,10 +115,10 @@ template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collaps
         return outcome;
     };
 
-    if (!all_finite(deposit.position) ||
-        !std::all_of(deposit.d_position.begin(), deposit.d_position.end(), [](const V& d) { return all_finite(d); }))
+    const std::optional<Ellipse<V>> shape = policies.shape(deposit);
+    if (!all_finite(deposit.position) || !shape)
         return without(Fate::invalid);
-    Ellipse<V> ellipse = footprint(deposit.d_position, deposit.normal);
+    Ellipse<V> ellipse = *shape;
     const T spacing = map.spacing_at(deposit.position);
 
     const auto judged = [&](Verdict verdict) {

@@ -6,6 +6,7 @@
 /// of small distances.
 #pragma once
 
+#include "nephroid/transport/executor.hpp"
 #include "nephroid/vector/algebra.hpp"
 #include "nephroid/vector/error.hpp"
 #include "nephroid/vector/text.hpp"
@@ -54,6 +55,64 @@ struct Neighbour {
     std::uint32_t slot; ///< in the tree's leaf order
 };
 
+/// Every point counts.
+struct AcceptAll {
+    [[nodiscard]] constexpr bool operator()(std::size_t) const { return true; }
+};
+
+namespace detail {
+/// The nearest of the points offered, as many as there is room for: a heap once there is no more room, whose first
+/// element is the farthest and the next to go.
+template <Scalar T>
+class NearestHeap {
+public:
+    NearestHeap(std::span<Neighbour<T>> found, T limit2)
+        : found_(found), limit2_(limit2), unlimited_(!isfinite(limit2)) {}
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    /// Whether a point at this distance is among the nearest so far.
+    [[nodiscard]] bool wants(T distance2) const { return bool(int(distance2 < limit2_) | int(unlimited_)); }
+
+    /// @param neighbour  wanted
+    void take(const Neighbour<T>& neighbour) {
+        if (size_ == found_.size()) {
+            replace_farthest(neighbour);
+        } else {
+            found_[size_++] = neighbour;
+            if (size_ < found_.size())
+                return;
+            std::make_heap(found_.begin(), found_.end(),
+                           [](const Neighbour<T>& a, const Neighbour<T>& b) { return a.distance2 < b.distance2; });
+            unlimited_ = false;
+        }
+        limit2_ = found_.front().distance2;
+    }
+
+private:
+    /// Puts a neighbour in the farthest one's place, and down to where it belongs.
+    void replace_farthest(const Neighbour<T>& neighbour) {
+        Neighbour<T>* const heap = found_.data();
+        const std::size_t size = found_.size();
+        const T distance2 = neighbour.distance2;
+        std::size_t hole = 0;
+        for (std::size_t child = 1; child < size; child = 2 * hole + 1) {
+            if (child + 1 < size)
+                child += std::size_t(heap[child].distance2 < heap[child + 1].distance2); // without a branch to guess
+            if (!(distance2 < heap[child].distance2))
+                break;
+            heap[hole] = heap[child];
+            hole = child;
+        }
+        heap[hole] = neighbour;
+    }
+
+    std::span<Neighbour<T>> found_;
+    std::size_t size_ = 0;
+    T limit2_;
+    bool unlimited_; ///< squared distances may be infinite, where positions span all of a scalar's range
+};
+} // namespace detail
+
 /// Slots [first, first + size) of the leaf order hold points; up to the next multiple of `PointTree::lanes` they
 /// repeat the last one, so that loops over whole lanes read nothing foreign.
 struct TreeLeaf {
@@ -97,6 +156,35 @@ public:
 
     /// A world position relative to the origin.
     [[nodiscard]] V relative(const V& position) const { return position - origin_; }
+
+    /// Moves the points and keeps the tree's shape: every slot keeps its point, and the boxes are drawn tight about where
+    /// the points are now. Look-ups stay exact however far they moved, and slow down as leaves come to overlap.
+    ///
+    /// @param moved  coordinates by slot, relative to the origin, finite; slots() for each axis, of which those that repeat
+    ///               a point are not read. Holds the coordinates from before afterwards.
+    template <class E>
+        requires Executor<E&>
+    void refit(std::array<std::vector<T>, 3>& moved, E& executor) {
+        coordinates_.swap(moved);
+        constexpr std::size_t nodes_per_task = 64;
+        executor((nodes_.size() + nodes_per_task - 1) / nodes_per_task, [&](std::size_t task) {
+            const std::size_t end = (std::min)(nodes_.size(), (task + 1) * nodes_per_task);
+            for (std::size_t i = task * nodes_per_task; i < end; ++i)
+                if (nodes_[i].leaf != no_leaf)
+                    refit_leaf(leaves_[nodes_[i].leaf], nodes_[i].box);
+        });
+        for (std::size_t i = nodes_.size(); i-- > 0;) { // children follow their parents
+            if (nodes_[i].leaf != no_leaf)
+                continue;
+            const Box<T>&first = nodes_[i + 1].box, &second = nodes_[nodes_[i + 1].skip].box;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                nodes_[i].box.low[axis] = (std::min)(first.low[axis], second.low[axis]);
+                nodes_[i].box.high[axis] = (std::max)(first.high[axis], second.high[axis]);
+            }
+        }
+        if (!nodes_.empty())
+            bounds_ = nodes_.front().box;
+    }
 
     /// Calls visit(leaf) for every leaf whose box overlaps this one, in leaf order.
     template <class Visit>
@@ -145,54 +233,108 @@ public:
         return found;
     }
 
+    /// Squared distances from a place (relative to the origin) to the points in `lanes` slots from this one on.
+    void distances2(std::size_t slot, const std::array<T, 3>& place, std::array<T, lanes>& distance2) const {
+        const T* const px = x() + slot;
+        const T* const py = y() + slot;
+        const T* const pz = z() + slot;
+        const T cx = place[0], cy = place[1], cz = place[2];
+        for (std::size_t i = 0; i < lanes; ++i)
+            distance2[i] = square(px[i] - cx) + square(py[i] - cy) + square(pz[i] - cz);
+    }
+
     /// The points nearest to a place (relative to the origin), in no particular order.
     ///
-    /// @param found  room for as many as are wanted; a heap, so that the farthest is replaced first
-    /// @return  how many there are: found.size(), or all points if there are fewer
-    std::size_t nearest(const V& relative_position, std::span<Neighbour<T>> found) const {
+    /// @param found   room for as many as are wanted
+    /// @param limit2  only points nearer than the root of this count
+    /// @param accept  accept(slot): whether a point counts at all; asked only of points that lie near enough
+    /// @return  how many there are: found.size(), or all that count if there are fewer. If found.size(), they are a
+    ///          heap, whose first element is the farthest.
+    template <class Accept = AcceptAll>
+    std::size_t nearest(const V& relative_position, std::span<Neighbour<T>> found,
+                        T limit2 = std::numeric_limits<T>::infinity(), const Accept& accept = {}) const {
         using t = vector_traits<V>;
         if (empty() || found.empty())
             return 0;
+        detail::NearestHeap<T> heap(found, limit2);
         const std::array<T, 3> p = {t::x(relative_position), t::y(relative_position), t::z(relative_position)};
-        const auto distance2_to = [&](const TreeNode<T>& node) {
-            T distance2(0);
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                distance2 = distance2 + square((std::max)({T(0), node.box.low[axis] - p[axis],
-                                                           p[axis] - node.box.high[axis]}));
-            return distance2;
+        // The nearer child first; the other one waits here. A tree too deep for that (points clustered over hundreds of
+        // orders of two) has the rest of a branch walked in the nodes' own order, which needs no room.
+        struct Waiting {
+            T distance2;
+            std::uint32_t node;
         };
-        const auto nearer = [](const Neighbour<T>& a, const Neighbour<T>& b) { return a.distance2 < b.distance2; };
-        std::size_t count = 0;
-        const auto take_from = [&](const TreeLeaf& leaf) {
-            for (std::uint32_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot) {
-                const T distance2 = square(x()[slot] - p[0]) + square(y()[slot] - p[1]) + square(z()[slot] - p[2]);
-                if (count < found.size()) {
-                    found[count++] = {distance2, slot};
-                    std::push_heap(found.begin(), found.begin() + std::ptrdiff_t(count), nearer);
-                } else if (distance2 < found.front().distance2) {
-                    std::pop_heap(found.begin(), found.end(), nearer);
-                    found.back() = {distance2, slot};
-                    std::push_heap(found.begin(), found.end(), nearer);
+        constexpr std::size_t most_waiting = 64;
+        std::array<Waiting, most_waiting> waiting;
+        std::size_t top = 0;
+        T distance2 = distance2_to(nodes_.front(), p);
+        for (std::uint32_t node = 0;;) {
+            if (heap.wants(distance2)) {
+                if (nodes_[node].leaf != no_leaf) {
+                    take_leaf(leaves_[nodes_[node].leaf], p, heap, accept);
+                } else if (top == most_waiting) {
+                    take_subtree(node, p, heap, accept);
+                } else {
+                    const std::uint32_t first = node + 1, second = nodes_[first].skip;
+                    const T to_first = distance2_to(nodes_[first], p), to_second = distance2_to(nodes_[second], p);
+                    const bool in_order = to_first <= to_second;
+                    waiting[top++] = in_order ? Waiting{to_second, second} : Waiting{to_first, first};
+                    node = in_order ? first : second;
+                    distance2 = in_order ? to_first : to_second;
+                    continue;
                 }
             }
-        };
-
-        const std::uint32_t start = nodes_[descend(distance2_to)].leaf;
-        take_from(leaves_[start]);
-        for (std::size_t i = 0; i < nodes_.size();) {
-            const TreeNode<T>& node = nodes_[i];
-            if (count == found.size() && !(distance2_to(node) < found.front().distance2)) {
-                i = node.skip;
-                continue;
-            }
-            if (node.leaf != no_leaf && node.leaf != start)
-                take_from(leaves_[node.leaf]);
-            ++i;
+            if (top == 0)
+                return heap.size();
+            node = waiting[--top].node;
+            distance2 = waiting[top].distance2;
         }
-        return count;
     }
 
 private:
+    [[nodiscard]] static T distance2_to(const TreeNode<T>& node, const std::array<T, 3>& p) {
+        T distance2(0);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            distance2 =
+                distance2 + square((std::max)({T(0), node.box.low[axis] - p[axis], p[axis] - node.box.high[axis]}));
+        return distance2;
+    }
+
+    template <class Accept>
+    void take_leaf(const TreeLeaf& leaf, const std::array<T, 3>& p, detail::NearestHeap<T>& heap,
+                   const Accept& accept) const {
+        // First without a branch, as which points are wanted is anybody's guess; the few that are then one by one.
+        std::array<Neighbour<T>, leaf_size> wanted;
+        std::size_t count = 0;
+        for (std::uint32_t first = 0; first < leaf.size; first += lanes) {
+            std::array<T, lanes> distance2;
+            distances2(leaf.first + first, p, distance2);
+            const std::size_t size = (std::min)(lanes, std::size_t(leaf.size - first));
+            for (std::size_t i = 0; i < size; ++i) {
+                wanted[count] = {distance2[i], std::uint32_t(leaf.first + first + i)};
+                count += std::size_t(heap.wants(distance2[i]));
+            }
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            if (heap.wants(wanted[i].distance2) && accept(std::size_t(wanted[i].slot)))
+                heap.take(wanted[i]);
+    }
+
+    template <class Accept>
+    void take_subtree(std::uint32_t root, const std::array<T, 3>& p, detail::NearestHeap<T>& heap,
+                      const Accept& accept) const {
+        for (std::uint32_t i = root; i < nodes_[root].skip;) {
+            const TreeNode<T>& node = nodes_[i];
+            if (!heap.wants(distance2_to(node, p))) {
+                i = node.skip;
+                continue;
+            }
+            if (node.leaf != no_leaf)
+                take_leaf(leaves_[node.leaf], p, heap, accept);
+            ++i;
+        }
+    }
+
     /// The points as nanoflann asks for them.
     struct Cloud {
         std::vector<std::array<T, 3>> points;
@@ -216,35 +358,55 @@ private:
         return node;
     }
 
+    /// Repeats a leaf's last point up to whole lanes, and draws its box.
+    void refit_leaf(const TreeLeaf& leaf, Box<T>& box) {
+        const std::size_t last = leaf.first + leaf.size - 1;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            T* const coordinate = coordinates_[axis].data();
+            for (std::size_t slot = last + 1; slot % lanes != 0; ++slot)
+                coordinate[slot] = coordinate[last];
+            const auto [low, high] = std::minmax_element(coordinate + leaf.first, coordinate + last + 1);
+            box.low[axis] = *low, box.high[axis] = *high;
+        }
+    }
+
     template <class Position>
     [[nodiscard]] Cloud gather(std::size_t count, Position&& position, const char* who) {
         using t = vector_traits<V>;
         Cloud cloud;
         cloud.points.reserve(count);
-        std::array<T, 3> low, high;
-        low.fill(std::numeric_limits<T>::infinity());
-        high.fill(-std::numeric_limits<T>::infinity());
         for (std::size_t i = 0; i < count; ++i) {
             const V p = position(i);
             if (!all_finite(p))
                 invalid_argument(std::string(who) + ": point " + std::to_string(i) + " is at " + detail::text_of(p) +
                                  "; every position must be finite");
             cloud.points.push_back({t::x(p), t::y(p), t::z(p)});
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                low[axis] = (std::min)(low[axis], cloud.points.back()[axis]);
-                high[axis] = (std::max)(high[axis], cloud.points.back()[axis]);
-            }
         }
         if (count > 0) {
-            std::array<T, 3> origin;
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                origin[axis] = T(0.5) * low[axis] + T(0.5) * high[axis];
+            const std::array<T, 3> origin = middle_of(cloud.points);
             origin_ = t::make(origin[0], origin[1], origin[2]);
             for (auto& p : cloud.points)
                 for (std::size_t axis = 0; axis < 3; ++axis)
                     p[axis] = p[axis] - origin[axis];
         }
         return cloud;
+    }
+
+    /// The median of each coordinate, of a few thousand of the points: a stray one far away must not take the digits of
+    /// all others, as it would with the middle of the bounds.
+    [[nodiscard]] static std::array<T, 3> middle_of(const std::vector<std::array<T, 3>>& points) {
+        const std::size_t stride = (points.size() + 4095) / 4096;
+        std::array<T, 3> middle;
+        std::vector<T> along;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            along.clear();
+            for (std::size_t i = 0; i < points.size(); i += stride)
+                along.push_back(points[i][axis]);
+            const auto half = along.begin() + std::ptrdiff_t(along.size() / 2);
+            std::nth_element(along.begin(), half, along.end());
+            middle[axis] = *half;
+        }
+        return middle;
     }
 
     void lay_out(const Cloud& cloud) {

@@ -46,6 +46,7 @@ struct Statistics {
     std::uint64_t specular_events = 0;   ///< reflections and refractions
     std::uint64_t corrected_normals = 0; ///< events that used the geometric normal, as the shading one sent the ray
                                          ///< through the wrong side of the surface
+    std::uint64_t bounded_shifts = 0;      ///< of second-order splats, shortened
     std::uint64_t bounded_footprints = 0; ///< made smaller by the excess policy, or larger by the collapse policy
 
     [[nodiscard]] const Tally& operator[](Fate fate) const { return fates[std::size_t(fate)]; }
@@ -80,6 +81,7 @@ struct Statistics {
         rays += other.rays;
         specular_events += other.specular_events;
         corrected_normals += other.corrected_normals;
+        bounded_shifts += other.bounded_shifts;
         bounded_footprints += other.bounded_footprints;
         return *this;
     }

@@ -12,14 +12,40 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace nephroid {
 
 /// `executor(count, task)` calls task(i) once for each i in 0 … count − 1, in any order and on any threads, and
-/// returns when all are done. Results never depend on who runs what. oneTBB and OpenMP are adapted in three lines.
+/// returns when all are done. Results never depend on who runs what. oneTBB and OpenMP are adapted in three lines:
+///
+/// ```cpp
+/// const auto tbb = [](std::size_t count, auto&& task) { tbb::parallel_for(std::size_t(0), count, task); };
+/// const auto openmp = [](std::size_t count, auto&& task) {
+///     #pragma omp parallel for schedule(dynamic)
+///     for (std::size_t i = 0; i < count; ++i)
+///         task(i);
+/// };
+/// ```
 template <class E>
 concept Executor = requires(E executor, std::size_t count, void (*task)(std::size_t)) { executor(count, task); };
+
+/// The same, for functions that take one by a forwarding reference E&&.
+template <class E>
+concept ExecutorArgument = Executor<std::remove_reference_t<E>&>;
+
+/// What an executor is called for.
+enum class Phase { trace, fit, splat };
+
+namespace detail {
+/// Tells an executor that wants to know (to take times, say) what the next calls are for: a member `begin(Phase)`.
+template <class E>
+void announce(E& executor, Phase phase) {
+    if constexpr (requires { executor.begin(phase); })
+        executor.begin(phase);
+}
+} // namespace detail
 
 /// All on the calling thread.
 struct SerialExecutor {

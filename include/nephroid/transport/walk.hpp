@@ -8,6 +8,7 @@
 #include "nephroid/emission/photon.hpp"
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/scene.hpp"
+#include "nephroid/transport/trail.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -163,6 +164,11 @@ public:
 
     [[nodiscard]] const Photon<V, F, N>& photon() const { return photon_; }
 
+    /// Whether the photon flies against the hit's geometric normal.
+    [[nodiscard]] bool is_in_front_of(const H& hit) const {
+        return dot(photon_.direction, V(hit.geometric_normal)) < T(0);
+    }
+
 private:
     [[nodiscard]] static double power(const F& flux) { return double(flux_traits<F>::power(flux)); }
 
@@ -224,12 +230,13 @@ private:
 /// @param sampler  the photon's own stream of numbers, from which the scene and Russian roulette draw
 /// @param limits   on the path
 /// @param account  gets the photon's flux by reason, except for what is deposited: that is the caller's to book
+/// @param trail    notes the surfaces met (transport/trail.hpp)
 /// @return  the photon where it is to be splatted; nothing if it ended otherwise, which is then in the account.
 /// Does not throw unless the scene does.
-template <class S, Vector3 V, Flux F, std::size_t N, class Sampler>
-    requires Scene<S, V, Sampler>
+template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Trail = NoTrail>
+    requires detail::MustBeScene<S, V, Sampler>
 [[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, const Photon<V, F, N>& photon, Sampler& sampler,
-                                                   const WalkLimits& limits, Statistics& account) {
+                                                   const WalkLimits& limits, Statistics& account, Trail&& trail = {}) {
     using T = scalar_t<V>;
     static_assert(Absorbs<S, V> || !requires { typename S::medium; },
                   "nephroid::walk: the scene names a medium, but transmittance(medium, distance) is missing or not const");
@@ -257,12 +264,15 @@ template <class S, Vector3 V, Flux F, std::size_t N, class Sampler>
         if (scattering.event == Event::deposit) {
             if (events == 0)
                 return ended(Fate::direct);
+            trail.meet(*hit, path.is_in_front_of(*hit), false);
             return path.deposit(*hit);
         }
         if (events == limits.specular_events)
             return ended(Fate::terminated);
+        const bool from_front = path.is_in_front_of(*hit);
         if (!path.weigh(scattering.weight) || !path.bend(*hit, scattering))
             return std::nullopt;
+        trail.meet(*hit, from_front, path.is_in_front_of(*hit) == from_front);
         if (events + 1 >= limits.roulette_after && !path.survives_roulette(sampler))
             return std::nullopt;
         path.leave(*hit);

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+/// @file  A light whose photons carry no differentials: for the methods that do without footprints.
+#pragma once
+
+#include "nephroid/emission/light.hpp"
+
+#include <utility>
+
+namespace nephroid {
+
+/// The same photons as the light's own, in position, direction and flux, bit for bit, but with N = 0 tangents, so that
+/// nothing is spent on carrying them along. Not a `Light`, which has at least two; what takes a `PhotonSource` takes it.
+///
+/// ```cpp
+/// const auto traced = nephroid::trace_photons(scene, nephroid::WithoutTangents(light), pass, sequence, executor);
+/// ```
+template <Light L>
+class WithoutTangents {
+public:
+    using vector = typename L::vector;
+    using flux_type = typename L::flux_type;
+
+    explicit WithoutTangents(L light) : light_(std::move(light)) {}
+
+    template <class S>
+    [[nodiscard]] Photon<vector, flux_type, 0> emit(S& samples, const Spread<scalar_t<vector>>& spread) const {
+        const auto photon = light_.emit(samples, spread);
+        return {photon.position, photon.direction, photon.flux, {}};
+    }
+
+    [[nodiscard]] double power() const { return double(light_.power()); }
+    [[nodiscard]] const L& light() const { return light_; }
+
+private:
+    L light_;
+};
+
+namespace detail {
+template <class L>
+inline constexpr bool is_without_tangents = false;
+template <Light L>
+inline constexpr bool is_without_tangents<WithoutTangents<L>> = true;
+
+template <class L>
+concept EmitsWithoutTangents = is_without_tangents<L>;
+} // namespace detail
+
+/// What emits photons, with differentials or without.
+template <class L>
+concept PhotonSource = Light<L> || detail::EmitsWithoutTangents<L>;
+
+namespace detail {
+/// A source of photons for these sums, or an error that says why not.
+template <class L, class V, class F>
+concept MustEmit = (PhotonSource<L> || explain_light<L>()) && (EmitsFor<L, V, F> || explain_emission<L, V, F>());
+} // namespace detail
+
+} // namespace nephroid

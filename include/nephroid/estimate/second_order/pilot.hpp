@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/// @file  The first photons of a pass, traced and kept until their neighbours have told how large they should be.
+#pragma once
+
+#include "nephroid/emission/light.hpp"
+#include "nephroid/emission/sequence/sequence.hpp"
+#include "nephroid/estimate/photon_pass.hpp"
+#include "nephroid/estimate/second_order/second_order.hpp"
+#include "nephroid/transport/trail.hpp"
+
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace nephroid::detail {
+
+template <class L>
+using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type,
+                                     std::remove_cvref_t<decltype(std::declval<const L&>().emit(
+                                         std::declval<AnySampleSource&>(),
+                                         std::declval<const Spread<scalar_t<typename L::vector>>&>()))>::tangent_count>;
+
+/// The photon with an index (of the whole picture, not of the pass), emitted with smoothing 1.
+template <class S, class L, class Sequence>
+[[nodiscard]] traced_photon_t<L> trace_photon(const S& scene, const L& light, const PhotonPass& pass,
+                                              const Sequence& sequence, std::uint64_t index, Statistics& account) {
+    using T = scalar_t<typename L::vector>;
+    const Spread<T> spread{T(pass.total == 0 ? pass.count : pass.total), T(1)};
+    Sampler<Sequence> sampler(sequence, index);
+    RecordingSource<Sampler<Sequence>> recorder(sampler);
+    const auto emitted = light.emit(recorder, spread);
+    PathSignature signature;
+    const auto deposit = walk(scene, emitted, sampler, pass.limits, account, signature);
+    return {recorder.sample(), EmissionFrame(emitted), signature.value(), deposit};
+}
+
+/// The first photons of the picture that a pass is a part of: every part of a picture makes the same of them. A pass
+/// without a `total` is a picture of its own.
+template <class Photon>
+struct Pilot {
+    std::uint64_t first = 0; ///< index of the first
+    std::vector<Photon> photons;
+    std::vector<Statistics> accounts; ///< of each photon: booked when it is splatted, so that a pass can be stopped
+
+    [[nodiscard]] bool has(std::uint64_t index) const { return index >= first && index - first < photons.size(); }
+    [[nodiscard]] Photon take(std::uint64_t index, Statistics& account) const {
+        account += accounts[std::size_t(index - first)];
+        return photons[std::size_t(index - first)];
+    }
+};
+
+template <class S, class L, class Sequence, class E>
+[[nodiscard]] Pilot<traced_photon_t<L>> trace_pilot(const S& scene, const L& light, const PhotonPass& pass,
+                                                    const SecondOrder& policy, const Sequence& sequence, E& executor) {
+    constexpr std::size_t photons_per_task = 512;
+    const auto count = std::size_t((std::min)(pass.total == 0 ? pass.count : pass.total, policy.pilot));
+    Pilot<traced_photon_t<L>> pilot{pass.total == 0 ? pass.first : 0, std::vector<traced_photon_t<L>>(count),
+                                    std::vector<Statistics>(count)};
+    announce(executor, Phase::trace);
+    executor((count + photons_per_task - 1) / photons_per_task, [&](std::size_t task) {
+        const std::size_t end = (std::min)(count, (task + 1) * photons_per_task);
+        for (std::size_t i = task * photons_per_task; i < end; ++i)
+            pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
+    });
+    return pilot;
+}
+
+/// What the pilot photons say of the footprints of the whole pass.
+template <Vector3 V, Flux F, std::size_t N, class Policies, class E>
+[[nodiscard]] SecondOrderFootprints<V> footprints_from(const Pilot<TracedPhoton<V, F, N>>& pilot,
+                                                       const PhotonPass& pass, const Policies& policies,
+                                                       bool stratified, E& executor) {
+    using Kernel = std::remove_cvref_t<decltype(policies.kernel)>;
+    const typename SecondOrderFootprints<V>::Options options{.policy = policies.order,
+                                                             .smoothing = pass.smoothing,
+                                                             .stratified = stratified,
+                                                             .second_moment = double(Kernel::second_moment),
+                                                             .photons =
+                                                                 double(pass.total == 0 ? pass.count : pass.total)};
+    announce(executor, Phase::fit);
+    return SecondOrderFootprints<V>(std::span<const TracedPhoton<V, F, N>>(pilot.photons), options, executor);
+}
+
+} // namespace nephroid::detail

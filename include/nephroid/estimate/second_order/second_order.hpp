@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+/// @file  Second-order splatting: each splat's centre shifted so that its bias cancels, its footprint shaped by what the
+/// photons around it say of the map.
+///
+/// A splat of shape S (smoothing_rule.hpp) about F spreads the photon's flux with a relative bias of
+/// div[J⁻¹(m₂/2 ∂_a(S_ab ∂_b F) − D)] to second order, div taken over the emission domain, D the shift of its centre.
+/// So D = m₂/2 (S_ab F_ab + (∂_a S_ab) F_b) leaves a bias of fourth order. It costs nothing per pixel.
+///
+/// For two emission coordinates (point, spot and directional lights) this is exact; an area light draws four numbers, and
+/// its photons are splatted as without it.
+#pragma once
+
+#include "nephroid/estimate/second_order/footprint_field.hpp"
+
+namespace nephroid {
+
+/// The photons of a pass, turned to footprints.
+template <Vector3 V>
+class SecondOrderFootprints {
+public:
+    using T = scalar_t<V>;
+
+    struct Options {
+        SecondOrder policy{};
+        std::optional<double> smoothing{};
+        bool stratified = false;
+        double second_moment = 0.125; ///< of the kernel
+        double photons = 0;           ///< emitted in all, N_e
+    };
+
+    /// @param pilot  photons emitted with smoothing 1, in the order of their indices; those of each light are put together
+    template <Flux F, std::size_t N, class E>
+    SecondOrderFootprints(std::span<const TracedPhoton<V, F, N>> pilot, const Options& options, E& executor)
+        : options_(options) {
+        constexpr std::size_t fewest = 4 * EmissionCells::photons_per_cell;
+        struct OfOneLight {
+            std::uint32_t light;
+            std::span<const TracedPhoton<V, F, N>> all;
+            std::vector<std::uint32_t> indices;
+            [[nodiscard]] std::size_t size() const { return indices.size(); }
+            [[nodiscard]] const TracedPhoton<V, F, N>& operator[](std::size_t i) const { return all[indices[i]]; }
+        };
+        std::vector<OfOneLight> by_light; // sorted by light
+        for (std::size_t i = 0; i < pilot.size(); ++i) {
+            const EmissionSample& sample = pilot[i].sample;
+            if (sample.dimensions != 2)
+                continue;
+            auto found = std::lower_bound(by_light.begin(), by_light.end(), sample.light,
+                                          [](const OfOneLight& a, std::uint32_t light) { return a.light < light; });
+            if (found == by_light.end() || found->light != sample.light)
+                found = by_light.insert(found, {sample.light, pilot, {}});
+            found->indices.push_back(std::uint32_t(i));
+        }
+        fields_.reserve(by_light.size());
+        for (const OfOneLight& photons : by_light) {
+            if (photons.size() < fewest)
+                continue;
+            const FieldOptions field{.smoothing = options.smoothing,
+                                     .stratified = options.stratified,
+                                     .repeats = options.policy.domain_repeats,
+                                     .scale = 0.125 / options.second_moment,
+                                     .photons = options.photons * double(photons.size()) / double(pilot.size()),
+                                     .bounds = options.policy.bounds};
+            fields_.push_back({photons.light, FootprintField(photons, field, executor)});
+        }
+    }
+
+    /// Gives a deposit its footprint and its place.
+    ///
+    /// @param photon  emitted with smoothing 1; its deposit must not be empty
+    /// @return  whether the shift was shortened
+    template <Flux F, std::size_t N>
+    bool apply(TracedPhoton<V, F, N>& photon) const {
+        Deposit<V, F, N>& deposit = *photon.deposit;
+        const FootprintField* field = field_of(photon.sample);
+        const auto found = field != nullptr && photon.frame.is_regular()
+                               ? field->at(photon.sample.at, photon.frame, photon.signature)
+                               : std::nullopt;
+        const auto tangents = unit_tangents(deposit);
+        if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
+            const double fallback = photon.sample.dimensions == 2 ? options_.policy.bounds.least : default_smoothing;
+            scale(deposit, T(options_.smoothing.value_or(fallback)));
+            return false;
+        }
+
+        const double factor = 0.5 * options_.second_moment;
+        const Symmetric2& s = found->shape;
+        Plane2 drift = factor * found->divergence;
+        // |drift| at most a quarter of the footprint, by its own measure.
+        const double size2 =
+            (s.yy * drift.x * drift.x - 2 * s.xy * drift.x * drift.y + s.xx * drift.y * drift.y) / s.determinant();
+        bool bounded = size2 > 1.0 / 16;
+        if (bounded)
+            drift = (0.25 / std::sqrt(size2)) * drift;
+        const Space3 bend = along_surface(
+            factor * (s.xx * found->second[0] + ((2 * s.xy) * found->second[1] + s.yy * found->second[2])),
+            deposit.normal);
+
+        // S = L Lᵀ, the new tangents are J L.
+        const double l00 = std::sqrt(s.xx), l10 = s.xy / l00, l11 = std::sqrt(s.determinant()) / l00;
+        const Space3 a = l00 * tangents[0] + l10 * tangents[1], b = l11 * tangents[1];
+        const double most = options_.policy.largest_shift * std::sqrt((std::max)(inner(a, a), inner(b, b)));
+        const Space3 shift = bend + (drift.x * tangents[0] + drift.y * tangents[1]);
+        const double distance = std::sqrt(inner(shift, shift));
+        const double share = distance > most ? most / distance : 1;
+        bounded = bounded || distance > most;
+
+        // In the renderer's own scalar again, which may know derivatives: S and H are constants to those.
+        const V d_u = deposit.d_position[0], d_v = deposit.d_position[1];
+        scale(deposit, T(std::sqrt(std::sqrt(s.determinant())))); // tangents beyond the first two
+        deposit.d_position[0] = T(l00) * d_u + T(l10) * d_v;
+        deposit.d_position[1] = T(l11) * d_v;
+        deposit.position =
+            deposit.position + (T(0.5 * share * drift.x) * d_u + T(0.5 * share * drift.y) * d_v) + world(share * bend);
+        return bounded;
+    }
+
+private:
+    [[nodiscard]] static V world(const Space3& v) { return make_vector<V>(T(v.x), T(v.y), T(v.z)); }
+
+    [[nodiscard]] static Space3 along_surface(const Space3& v, const V& normal) {
+        using t = vector_traits<V>;
+        const Space3 n{double(t::x(normal)), double(t::y(normal)), double(t::z(normal))};
+        return v - inner(v, n) * n;
+    }
+
+    template <class D>
+    static void scale(D& deposit, T s) {
+        for (V& d : deposit.d_position)
+            d = s * d;
+    }
+
+    /// Nothing for lights that draw more than two numbers, or of which there are too few photons.
+    [[nodiscard]] const FootprintField* field_of(const EmissionSample& sample) const {
+        const auto found = std::lower_bound(fields_.begin(), fields_.end(), sample.light,
+                                            [](const LightField& a, std::uint32_t light) { return a.light < light; });
+        const bool is_its = found != fields_.end() && found->light == sample.light && sample.dimensions == 2;
+        return is_its ? &found->field : nullptr;
+    }
+
+    struct LightField {
+        std::uint32_t light;
+        FootprintField field;
+    };
+
+    Options options_;
+    std::vector<LightField> fields_; // sorted by light
+};
+
+} // namespace nephroid

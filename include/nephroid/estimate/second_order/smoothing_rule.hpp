@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+/// @file  How large, and of which shape, a photon's footprint should be: the rule that replaces the smoothing parameter.
+///
+/// A photon's footprint has the covariance m₂ J S Jᵀ, S a symmetric tensor in emission coordinates whose unit is
+/// u0 (S = s² 1 is the plain splat of smoothing s). With the centre shifted (second_order.hpp) the bias left is of
+/// fourth order, modelled as 0.02 tr(S Q)², where Q measures by how much the map bends within a unit step in each
+/// direction; the variance is 1.8/s² for random and 2.8/s⁴ for stratified photons, s⁴ = det S. For a given det S the
+/// bias is least with S in proportion to Q⁻¹: wide where the map is straight, narrow where it bends, and then
+/// tr(S Q) = 2 s² sqrt(det Q). That leaves a minimum over s alone.
+#pragma once
+
+#include "nephroid/estimate/second_order/path_derivatives.hpp"
+#include "nephroid/estimate/second_order/policy.hpp"
+
+#include <cmath>
+
+namespace nephroid {
+
+namespace detail {
+
+/// J⁻¹ of a vector in the image of J (what sticks out is dropped), kept finite where J is singular.
+class EmissionPullback {
+public:
+    explicit EmissionPullback(const std::array<Space3, 2>& first)
+        : first_(first), gram_{inner(first[0], first[0]), inner(first[0], first[1]), inner(first[1], first[1])} {
+        determinant_ = (std::max)(gram_.determinant(), 1e-12 * gram_.trace() * gram_.trace());
+    }
+
+    [[nodiscard]] Plane2 operator()(const Space3& v) const {
+        const double a = inner(first_[0], v), b = inner(first_[1], v);
+        const double d = determinant_ > 0 ? 1 / determinant_ : 0;
+        return {d * (gram_.yy * a - gram_.xy * b), d * (gram_.xx * b - gram_.xy * a)};
+    }
+
+private:
+    std::array<Space3, 2> first_;
+    Symmetric2 gram_;
+    double determinant_;
+};
+
+/// What a tensor becomes when its trace is limited.
+[[nodiscard]] inline Symmetric2 with_trace_at_most(double most, const Symmetric2& m) {
+    return m.trace() > most ? (most / m.trace()) * m : m;
+}
+} // namespace detail
+
+/// Q: how much the map bends, by direction, per u0².
+///
+/// Q = (J⁻¹H)ᵀ(J⁻¹H) + 0.3 (the square root of the same of T, by its trace) + 5/(π N) 1, the first two with a trace of
+/// at most 1 and 0.3: what bends by more within one photon's own share is not resolved anyway.
+///
+/// @param photons  emitted into this domain, N: no footprint should be of the domain's own size
+[[nodiscard]] inline Symmetric2 bending(const PathDerivatives& map, double photons) {
+    const detail::EmissionPullback pull_back(map.first);
+    const std::array<Plane2, 3> h = {pull_back(map.second[0]), pull_back(map.second[1]), pull_back(map.second[2])};
+    const std::array<Plane2, 4> t = {pull_back(map.third[0]), pull_back(map.third[1]), pull_back(map.third[2]),
+                                     pull_back(map.third[3])};
+    const Symmetric2 second{inner(h[0], h[0]) + inner(h[1], h[1]), inner(h[0], h[1]) + inner(h[1], h[2]),
+                            inner(h[1], h[1]) + inner(h[2], h[2])};
+    const Symmetric2 third{inner(t[0], t[0]) + 2 * inner(t[1], t[1]) + inner(t[2], t[2]),
+                           inner(t[0], t[1]) + 2 * inner(t[1], t[2]) + inner(t[2], t[3]),
+                           inner(t[1], t[1]) + 2 * inner(t[2], t[2]) + inner(t[3], t[3])};
+    Symmetric2 q = detail::with_trace_at_most(1, second);
+    if (third.trace() > 0)
+        q += (0.3 * (std::min)(1.0, std::sqrt(third.trace())) / third.trace()) * third;
+    q += Symmetric2::isotropic(5 / (pi<double> * photons));
+    return q;
+}
+
+/// log Q, its eigenvalues no further apart than the stretch allows. Neighbouring cells are blended in this form.
+[[nodiscard]] inline Symmetric2 log_bending(const Symmetric2& q, const SmoothingBounds& bounds) {
+    const Principal2 principal(q);
+    const double smaller = (std::max)(principal.smaller, principal.larger / (bounds.stretch * bounds.stretch));
+    return principal.with(std::log(principal.larger), std::log(smaller));
+}
+
+/// S from log Q.
+///
+/// @param stratified  whether the photons avoid each other (a sequence's `stratified`)
+[[nodiscard]] inline Symmetric2 smoothing_tensor(const Symmetric2& log_q, bool stratified,
+                                                 const SmoothingBounds& bounds) {
+    const Principal2 principal(log_q);
+    const double root_determinant = std::exp(0.5 * log_q.trace()); // of Q
+    const double g = 0.02 * 4 * root_determinant * root_determinant;
+    const double s =
+        (std::max)(bounds.least, stratified ? 1.028 * std::pow(g, -1.0 / 6) : 0.923 * std::pow(g, -1.0 / 5));
+    const auto radius2 = [&](double log_eigenvalue) {
+        const double r2 = s * s * root_determinant * std::exp(-log_eigenvalue);
+        return std::clamp(r2, bounds.least_radius * bounds.least_radius, bounds.largest_radius * bounds.largest_radius);
+    };
+    return principal.with(radius2(principal.larger), radius2(principal.smaller));
+}
+
+/// S with its radius along a unit direction reduced to `most`, and across it as it was.
+[[nodiscard]] inline Symmetric2 bounded_along(const Symmetric2& s, Plane2 direction, double most) {
+    const Plane2 along = s(direction);
+    const double radius2 = inner(direction, along);
+    if (radius2 <= most * most)
+        return s;
+    Symmetric2 reduced = s;
+    reduced += (-(1 - most * most / radius2) / radius2) * Symmetric2::outer(along);
+    return reduced;
+}
+
+} // namespace nephroid

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a walk may note on its way: nothing, or a signature of the path.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+
+namespace nephroid {
+
+/// Notes nothing, and costs nothing.
+struct NoTrail {
+    template <class Hit>
+    void meet(const Hit&, bool /*from_front*/, bool /*passed*/) const {}
+};
+
+/// A number that two paths share if they met the same surfaces, on the same sides, and went the same ways: then they
+/// are neighbours on one smooth sheet of the caustic, and their difference is a derivative. Surfaces are told apart by
+/// `hit.surface`, where a hit has that: it should name a smooth surface, not one of its triangles.
+class PathSignature {
+public:
+    /// @param from_front  whether the photon came from the side that the geometric normal points to
+    /// @param passed      whether it went on through the surface
+    template <class Hit>
+    void meet(const Hit& hit, bool from_front, bool passed) {
+        add(std::uint32_t(from_front) | std::uint32_t(passed) << 1);
+        if constexpr (requires {
+                          { hit.surface } -> std::convertible_to<std::uint64_t>;
+                      })
+            add(static_cast<std::uint32_t>(hit.surface));
+    }
+
+    [[nodiscard]] std::uint32_t value() const { return hash_; }
+
+private:
+    // Fowler, Noll and Vo's hash, a word at a time, with the high bits folded in.
+    void add(std::uint32_t word) {
+        hash_ = (hash_ ^ word) * 16777619u;
+        hash_ ^= hash_ >> 15;
+    }
+
+    std::uint32_t hash_ = 2166136261u;
+};
+
+} // namespace nephroid
