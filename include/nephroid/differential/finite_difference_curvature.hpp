@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+/// @file  Curvature for renderers that know none: the change of the normal, by tracing rays beside the hit.
+#pragma once
+
+#include "nephroid/differential/curvature.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+namespace nephroid {
+
+/// The change of a shading normal, dn = curvature(dx), by central differences: two rays beside the hit, each from a
+/// little above the surface straight down to it. They are traced when the walk asks, so a hit that only receives light
+/// costs none, and a mirror or glass surface two rays for each tangent. They count in no `Statistics::rays`.
+///
+/// Where a ray finds nothing, or another `surface`, or a normal that turns faster than the scale lets expect, the rays
+/// move closer together; at a rim and at a crease the difference to the hit itself is taken, on the side that goes on.
+/// Where nothing is found at all dn is NaN, which ends the photon as Fate::invalid: never a silent zero.
+/// Made by `finite_difference_curvature`; as constructed it knows nothing, and says so by the same NaN.
+///
+/// @tparam Tracer  has `intersect(origin, direction, t_min, t_max)` as transport/scene.hpp asks; may be incomplete here
+template <Vector3 V, class Tracer>
+class FiniteDifferenceCurvature {
+public:
+    using T = scalar_t<V>;
+
+    FiniteDifferenceCurvature() = default;
+
+    /// @param tracer  is referred to, and must outlive the curvature
+    /// The others as of a hit, and `finite_difference_curvature`.
+    FiniteDifferenceCurvature(const Tracer& tracer, const V& position, const V& geometric_normal,
+                              const V& shading_normal, std::optional<std::size_t> surface, T scale)
+        : tracer_(&tracer), position_(position), geometric_normal_(geometric_normal), shading_normal_(shading_normal),
+          surface_(surface), scale_(scale) {}
+
+    /// @param d_position  dx, in the tangent plane
+    [[nodiscard]] V operator()(const V& d_position) const {
+        if (!tracer_ || !all_finite(d_position) || !(scale_ > T(0)) || !isfinite(scale_))
+            return nothing_known();
+        if (!(largest_component(d_position) > T(0)))
+            return zero_vector<V>();
+        const V along = direction_of(d_position);
+        return dot(d_position, along) * derivative(along);
+    }
+
+private:
+    struct Probe {
+        V origin;
+        V normal;
+    };
+
+    /// The change of the normal over a distance.
+    struct Difference {
+        V turn;
+        T apart;
+
+        [[nodiscard]] T size() const { return length(turn) / apart; }
+        /// Whether the normal turns about as fast as on a surface of this scale, or less.
+        [[nodiscard]] bool is_gentle(T scale) const { return scale * length(turn) <= T(4) * apart; }
+    };
+
+    /// dn over the length of dx, along a unit vector in the tangent plane.
+    [[nodiscard]] V derivative(const V& along) const {
+        std::optional<Difference> found;
+        T scale = scale_;
+        for (int attempt = 0; attempt < 8 && scale > least_scale(); ++attempt) {
+            const T h = step(scale);
+            const auto ahead = probe(along, h), behind = probe(along, -h);
+            const auto to_ahead = from_hit(along, ahead), to_behind = from_hit(along, behind);
+            found = gentler(to_ahead, to_behind);
+            if (ahead && behind) {
+                const Difference across{ahead->normal - behind->normal, to_ahead->apart + to_behind->apart};
+                if (to_ahead->is_gentle(scale) && to_behind->is_gentle(scale))
+                    return T(1) / across.apart * across.turn;
+                // From so far apart the radius is a guess.
+                scale = (std::max)(T(1) / (std::max)(to_ahead->size(), to_behind->size()), scale / T(16));
+            } else if (found && found->is_gentle(scale)) {
+                break;
+            } else {
+                scale = scale / T(4);
+            }
+        }
+        return found ? V(T(1) / found->apart * found->turn) : nothing_known();
+    }
+
+    [[nodiscard]] std::optional<Difference> from_hit(const V& along, const std::optional<Probe>& probe) const {
+        if (!probe)
+            return std::nullopt;
+        const T offset = dot(V(probe->origin - position_), along);
+        const T sign = offset < T(0) ? T(-1) : T(1);
+        return Difference{sign * (probe->normal - shading_normal_), sign * offset};
+    }
+
+    [[nodiscard]] static std::optional<Difference> gentler(const std::optional<Difference>& a,
+                                                           const std::optional<Difference>& b) {
+        return !b || (a && a->size() <= b->size()) ? a : b;
+    }
+
+    /// Down to the surface at `offset` along the tangent plane, from as far above it as the surface may have sunk.
+    [[nodiscard]] std::optional<Probe> probe(const V& along, T offset) const {
+        const T height = abs(offset);
+        const V origin = position_ + (offset * along + height * geometric_normal_);
+        const auto hit = tracer_->intersect(origin, -geometric_normal_, T(0), T(2) * height);
+        if (!hit)
+            return std::nullopt;
+        if constexpr (requires { std::size_t((*hit).surface); })
+            if (surface_ && *surface_ != std::size_t((*hit).surface))
+                return std::nullopt;
+        V normal = (*hit).geometric_normal;
+        if constexpr (requires { V((*hit).shading_normal); })
+            normal = (*hit).shading_normal;
+        return Probe{origin, dot(normal, shading_normal_) < T(0) ? V(-normal) : normal};
+    }
+
+    /// With R the scale and δ the error of a normal, the truncation (h/R)²/R and the rounding δ/h balance at
+    /// h = R δ^(1/3). A normal that was computed from a position p far from the origin is off by ε (1 + |p|/R).
+    [[nodiscard]] T step(T scale) const {
+        const double r(scale), far(largest_component(position_)), epsilon(std::numeric_limits<T>::epsilon());
+        return T(std::cbrt(epsilon * r * r * (r + far)));
+    }
+
+    [[nodiscard]] static V nothing_known() {
+        const T nan = std::numeric_limits<T>::quiet_NaN();
+        return make_vector<V>(nan, nan, nan);
+    }
+
+    /// Below it neighbouring points round to the same.
+    [[nodiscard]] T least_scale() const {
+        return T(64) * std::numeric_limits<T>::epsilon() * largest_component(position_);
+    }
+
+    [[nodiscard]] static T largest_component(const V& v) {
+        using t = vector_traits<V>;
+        return (std::max)({T(abs(T(t::x(v)))), T(abs(T(t::y(v)))), T(abs(T(t::z(v))))});
+    }
+
+    const Tracer* tracer_ = nullptr;
+    V position_ = zero_vector<V>();
+    V geometric_normal_ = zero_vector<V>();
+    V shading_normal_ = zero_vector<V>();
+    std::optional<std::size_t> surface_;
+    T scale_ = T(0);
+};
+
+/// If this is what the compiler names: the hit has no `position`, or no `geometric_normal`.
+template <class H>
+concept LiesOnSurface = requires(const H hit) {
+    requires Vector3<std::remove_cvref_t<decltype(hit.position)>>;
+    { hit.geometric_normal } -> std::convertible_to<std::remove_cvref_t<decltype(hit.position)>>;
+};
+
+/// The curvature of a hit whose renderer knows distance and normal alone.
+///
+/// ```cpp
+/// struct Adapter {
+///     using Hit = nephroid::SurfaceHit<V, nephroid::FiniteDifferenceCurvature<V, Adapter>>;
+///     std::optional<Hit> intersect(const V& origin, const V& direction, float t_min, float t_max) const {
+///         …
+///         Hit hit{distance, position, normal, normal, {}, position_error, material};
+///         hit.curvature = nephroid::finite_difference_curvature(*this, hit, object_size);
+///         return hit;
+///     }
+/// };
+/// ```
+///
+/// @param tracer  what has found the hit: `tracer.intersect(origin, direction, t_min, t_max)`; must outlive the result.
+///                A surface is to be found from both sides; whether its normal is turned to the ray does not matter
+/// @param hit     with `position`, `geometric_normal`, and where it has them `shading_normal` and a number `surface`,
+///                which the neighbouring points must share
+/// @param scale   of the surface about the hit, world units, positive and finite (else dn is NaN): its least radius of
+///                curvature, or where that is unknown the object's size. Too large costs a few rays more, as long as the
+///                factor is well below ε^(−1/3), 200 in float; too small costs accuracy, the factor to the power 2/3. The
+///                rays start about ε^(1/3) scale off the surface: a tracer that skips a distance of its own at the
+///                start of every ray must skip less
+/// @return  as `hit.curvature`. The relative error is about (ε (1 + |p|/scale))^(2/3), with ε the scalar's epsilon and
+///          |p| the position's largest coordinate: 3e-5 in float, 5e-11 in double
+template <class Tracer, LiesOnSurface H>
+[[nodiscard]] auto finite_difference_curvature(const Tracer& tracer, const H& hit,
+                                               scalar_t<std::remove_cvref_t<decltype(hit.position)>> scale) {
+    using V = std::remove_cvref_t<decltype(hit.position)>;
+    V shading_normal = hit.geometric_normal;
+    if constexpr (requires { V(hit.shading_normal); })
+        shading_normal = hit.shading_normal;
+    std::optional<std::size_t> surface;
+    if constexpr (requires { std::size_t(hit.surface); })
+        surface = std::size_t(hit.surface);
+    return FiniteDifferenceCurvature<V, Tracer>(tracer, hit.position, hit.geometric_normal, shading_normal, surface,
+                                                scale);
+}
+
+template <class Tracer, LiesOnSurface H, class Scale>
+auto finite_difference_curvature(const Tracer&&, const H&, Scale) = delete; // would refer to a temporary
+
+} // namespace nephroid

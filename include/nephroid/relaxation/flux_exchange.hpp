@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+/// @file  Flux evened out between neighbouring photons, not across features: Section 3.4 of Spencer and Jones 2009.
+#pragma once
+
+#include "nephroid/relaxation/flux_discontinuity.hpp"
+#include "nephroid/relaxation/options.hpp"
+#include "nephroid/relaxation/photon_cloud.hpp"
+#include "nephroid/relaxation/repulsion.hpp"
+
+#include <span>
+#include <vector>
+
+namespace nephroid {
+
+/// How much of the flux between two photons passes the constraint of one of them [the second factor of eq. 13]: all of
+/// it along the feature or without one, none across.
+///
+/// @param offset    from one to the other, either way
+/// @param distance  its length, > 0
+template <Vector3 V>
+[[nodiscard]] scalar_t<V> permeability(const PhotonConstraint<V>& constraint, const V& offset, scalar_t<V> distance) {
+    using T = scalar_t<V>;
+    // The paper's offset is taken for a direction: with a length the weight would depend on the unit.
+    const T along = abs(dot(constraint.direction, offset)) / distance;
+    return constraint.weight * along + (T(1) - constraint.weight);
+}
+
+/// One step of flux diffusion over all photons, from a snapshot of their fluxes.
+template <class Cloud>
+class FluxExchange {
+public:
+    using V = typename Cloud::vector;
+    using F = typename Cloud::flux_type;
+    using T = scalar_t<V>;
+
+    FluxExchange(const Cloud& cloud, std::size_t neighbours)
+        : neighbours_(neighbours), partners_(neighbours * cloud.tree().slots(), nobody), next_(cloud.fluxes()) {}
+
+    /// Notes whom a photon may exchange flux with. May be called for several photons at the same time.
+    ///
+    /// @param found  its nearest, nearest first; the last one tells how far the others may be off, and is not a partner
+    void note(std::size_t slot, std::span<const Neighbour<T>> found) {
+        for (std::size_t k = 0; k < neighbours_; ++k)
+            partners_[slot * neighbours_ + k] = k + 1 < found.size() ? found[k].slot : nobody;
+    }
+
+    /// Replaces all fluxes.
+    ///
+    /// @param constraints  by slot, or empty
+    /// @param radius       by slot: the distance to the last one of `found`
+    template <class E>
+    void run(Cloud& cloud, std::span<const PhotonConstraint<V>> constraints, std::span<const T> radius,
+             FluxDiffusion method, E& executor) {
+        detail::for_each_slot(cloud.tree(), executor, [&](std::size_t slot) {
+            next_[slot] = method == FluxDiffusion::conserving ? exchanged(cloud, constraints, radius, slot)
+                                                              : weighted_mean(cloud, constraints, radius, slot);
+        });
+        cloud.fluxes().swap(next_);
+    }
+
+private:
+    static constexpr std::uint32_t nobody = (std::numeric_limits<std::uint32_t>::max)();
+
+    [[nodiscard]] std::span<const std::uint32_t> partners(std::size_t slot) const {
+        return {partners_.data() + slot * neighbours_, neighbours_};
+    }
+
+    /// What both constraints let pass. The weights of eq. 13 leave half of what crosses an edge obliquely: at
+    /// features, the more two fluxes differ the less they exchange, which changes nothing along edges of density alone.
+    [[nodiscard]] static T passes_both(const Cloud& cloud, std::span<const PhotonConstraint<V>> constraints,
+                                       std::size_t slot, std::size_t other, const V& offset, T distance) {
+        if (constraints.empty())
+            return T(1);
+        const T held = (std::max)(constraints[slot].weight, constraints[other].weight);
+        if (!(held > T(0)))
+            return T(1);
+        const T through = (std::min)(permeability(constraints[slot], offset, distance),
+                                     permeability(constraints[other], offset, distance));
+        return through * (T(1) - held * T(1 - detail::flux_homogeneity(cloud.flux(slot), cloud.flux(other))));
+    }
+
+    /// Eq. 12 and 13.
+    [[nodiscard]] F weighted_mean(const Cloud& cloud, std::span<const PhotonConstraint<V>> constraints,
+                                  std::span<const T> radius, std::size_t slot) const {
+        F sum = cloud.flux(slot);
+        T weights(1);
+        for (const std::uint32_t other : partners(slot)) {
+            if (other == nobody)
+                break;
+            const V offset = cloud.position(slot) - cloud.position(other);
+            const T distance = length(offset);
+            if (!(distance > T(0) && distance < radius[slot]))
+                continue;
+            const T through = constraints.empty() ? T(1) : permeability(constraints[other], offset, distance);
+            const T weight = (T(1) - square(distance / radius[slot])) * through;
+            sum = sum + static_cast<F>(cloud.flux(other) * weight);
+            weights = weights + weight;
+        }
+        return static_cast<F>(sum * (T(1) / weights));
+    }
+
+    /// A photon's flux after it gave each partner a share of the difference and got the same from it. Both of a pair
+    /// reckon with the same share: its kernel ends at the smaller of the two radii, within which each is a partner of
+    /// the other, and what passes is the same seen from both. With shares of at most 1/(K + 1) no flux overshoots.
+    [[nodiscard]] F exchanged(const Cloud& cloud, std::span<const PhotonConstraint<V>> constraints,
+                              std::span<const T> radius, std::size_t slot) const {
+        F flux = cloud.flux(slot);
+        for (const std::uint32_t other : partners(slot)) {
+            if (other == nobody)
+                break;
+            const T reach = (std::min)(radius[slot], radius[other]);
+            const V offset = cloud.position(slot) - cloud.position(other);
+            const T distance = length(offset);
+            if (!(distance > T(0) && distance < reach))
+                continue;
+            const T through = passes_both(cloud, constraints, slot, other, offset, distance);
+            const T share = (T(1) - square(distance / reach)) * through / T(neighbours_ + 1);
+            flux = flux + static_cast<F>(static_cast<F>(cloud.flux(other) * share) +
+                                         static_cast<F>(cloud.flux(slot) * -share));
+        }
+        return flux;
+    }
+
+    std::size_t neighbours_;
+    std::vector<std::uint32_t> partners_; // by slot, so many for each
+    std::vector<F> next_;
+};
+
+} // namespace nephroid

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/// @file  Which way photons in the same place part.
+#pragma once
+
+#include "nephroid/emission/sequence/hash.hpp"
+#include "nephroid/vector/frame.hpp"
+
+#include <cmath>
+#include <cstddef>
+
+namespace nephroid::detail {
+
+/// A unit vector in the tangent plane of the photon that comes first, for one photon of a pair and its opposite for the
+/// other: eq. 1 of Spencer and Jones 2009 has a size where two photons coincide, r τ, but no direction. It depends on
+/// the photons' indices alone.
+template <class Cloud>
+[[nodiscard]] typename Cloud::vector parting(const Cloud& cloud, std::size_t slot, std::size_t other) {
+    using V = typename Cloud::vector;
+    using T = scalar_t<V>;
+    const std::uint32_t i = cloud.tree().index(slot), j = cloud.tree().index(other);
+    const std::size_t first = i < j ? slot : other;
+    const double angle = 2 * pi<double> * uniform_from_bits<double>(hash_bits((std::min)(i, j), (std::max)(i, j)));
+    const Frame<V> frame = frame_about(cloud.normal(first));
+    const V direction = T(std::cos(angle)) * frame.u + T(std::sin(angle)) * frame.v;
+    return i < j ? direction : -direction;
+}
+
+} // namespace nephroid::detail

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+/// @file  The copy of the photons that relaxation works on: in the leaf order of a tree, where neighbours lie together.
+#pragma once
+
+#include "nephroid/map/point_tree.hpp"
+#include "nephroid/relaxation/photon_access.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nephroid {
+
+namespace detail {
+
+/// Calls task(scratch, leaf) for each leaf of a tree, a few at a time on one thread; a `Scratch` is made for these few.
+template <class Scratch, class Tree, class E, class Task>
+void for_each_leaf(const Tree& tree, E& executor, const Task& task) {
+    constexpr std::size_t leaves_per_task = 32;
+    const std::size_t leaves = tree.leaves().size();
+    executor((leaves + leaves_per_task - 1) / leaves_per_task, [&](std::size_t i) {
+        Scratch scratch;
+        const std::size_t end = (std::min)(leaves, (i + 1) * leaves_per_task);
+        for (std::size_t leaf = i * leaves_per_task; leaf < end; ++leaf)
+            task(scratch, std::uint32_t(leaf));
+    });
+}
+
+struct Nothing {};
+
+/// Calls task(slot) for each slot that holds a photon.
+template <class Tree, class E, class Task>
+void for_each_slot(const Tree& tree, E& executor, const Task& task) {
+    for_each_leaf<Nothing>(tree, executor, [&](Nothing, std::uint32_t leaf) {
+        const TreeLeaf range = tree.leaves()[leaf];
+        for (std::size_t slot = range.first; slot < range.first + range.size; ++slot)
+            task(slot);
+    });
+}
+
+} // namespace detail
+
+/// Positions (the tree's own), normals and fluxes by slot. A slot is a place in the tree's leaf order; those that pad
+/// a leaf to whole lanes are never asked for.
+template <Vector3 V, Flux F>
+    requires ScalesFlux<F, scalar_t<V>>
+class PhotonCloud {
+public:
+    using T = scalar_t<V>;
+    using vector = V;
+    using flux_type = F;
+
+    /// @param cos_same_surface  of the angle between normals from which on photons lie on different surfaces
+    /// @param who               the caller's name for error messages
+    /// Throws std::invalid_argument naming the photon whose position or normal is not finite or not of unit length.
+    template <class Photons, class Access>
+        requires ReadsPhotons<Access, Photons> PhotonCloud(Photons& photons, const Access& access,
+                                                           double cos_same_surface, const char* who)
+            : tree_(
+                  std::size_t(std::ranges::size(photons)),
+                  [&](std::size_t i) -> V { return std::invoke(access.position, detail::photon_at(photons, i)); }, who),
+              cos_same_surface_(T(cos_same_surface)) {
+            normals_.reserve(tree_.slots());
+            for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
+                const V n = std::invoke(access.normal, detail::photon_at(photons, tree_.index(slot)));
+                if (!(abs(length2(n) - T(1)) < T(0.01)))
+                    invalid_argument(std::string(who) + ": photon " + std::to_string(tree_.index(slot)) +
+                                     " has the normal " + detail::text_of(n) + "; normals must be of unit length");
+                normals_.push_back(n);
+            }
+            fluxes_.reserve(tree_.slots());
+            for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
+                fluxes_.push_back(std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))));
+        }
+
+        /// Writes positions back to the photons they came from, and fluxes if asked for.
+        template <class Photons, class Access, class E>
+            requires MovesPhotons<Access, Photons>
+        void write_back(Photons& photons, const Access& access, bool fluxes, E& executor) const {
+            detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
+                auto&& photon = detail::photon_at(photons, tree_.index(slot));
+                std::invoke(access.position, photon) = tree_.origin() + position(slot);
+                if (fluxes)
+                    std::invoke(access.flux, photon) = fluxes_[slot];
+            });
+        }
+
+        [[nodiscard]] const PointTree<V>& tree() const { return tree_; }
+        [[nodiscard]] PointTree<V>& tree() { return tree_; }
+
+        /// Relative to the tree's origin.
+        [[nodiscard]] V position(std::size_t slot) const {
+            return make_vector<V>(tree_.x()[slot], tree_.y()[slot], tree_.z()[slot]);
+        }
+        [[nodiscard]] const V& normal(std::size_t slot) const { return normals_[slot]; }
+        [[nodiscard]] const F& flux(std::size_t slot) const { return fluxes_[slot]; }
+        [[nodiscard]] const std::vector<F>& fluxes() const { return fluxes_; }
+        [[nodiscard]] std::vector<F>& fluxes() { return fluxes_; }
+        [[nodiscard]] bool same_surface(std::size_t a, std::size_t b) const {
+            return dot(normals_[a], normals_[b]) >= cos_same_surface_;
+        }
+
+    private:
+        PointTree<V> tree_;
+        std::vector<V> normals_;
+        std::vector<F> fluxes_;
+        T cos_same_surface_;
+};
+
+} // namespace nephroid
