@@ -58,7 +58,7 @@ int main() {
         {.direction = {0.3f, 0, -1}, .irradiance = 1, .patch = nephroid::BoundingSphere<Vec>{{0, 0, 1.3f}, 1}});
     nephroid::ThreadExecutor threads;
 
-    const auto statistics = nephroid::splat_caustics(Scene{}, sun, splatter, {.count = 50'000, .smoothing = 10},
+    const auto statistics = nephroid::splat_caustics(Scene{}, sun, splatter, {.count = 50'000},
                                                      nephroid::HaltonSequence(), threads);
 
     std::vector<float> irradiance(size * size);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-/// @file  The scenes whose caustics are known exactly: a water wave, a ring, a ball of glass.
+/// @file  The scenes whose caustics are known exactly (a water wave, a ring, a ball of glass), and one that is not.
 #pragma once
 
+#include "common/path_tracer/emitter.hpp"
 #include "common/scene.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/emission/light/disk.hpp"
 #include "nephroid/emission/light/point.hpp"
 #include "nephroid/emission/light_set.hpp"
 
@@ -33,15 +35,14 @@ public:
     using flux_type = F;
 
     struct Options {
-        T elevation; ///< of the sun, radians
-        T height;    ///< of the mirror
+        T elevation;  ///< of the sun, radians
+        T height;     ///< of the mirror
         F irradiance; ///< on horizontal planes
     };
 
     explicit RingBeam(const Options& options)
-        : direction_(std::cos(options.elevation), 0, -std::sin(options.elevation)),
-          slope_(std::tan(options.elevation)), height_(options.height),
-          power_(options.irradiance * (T(2) * options.height / slope_)),
+        : direction_(std::cos(options.elevation), 0, -std::sin(options.elevation)), slope_(std::tan(options.elevation)),
+          height_(options.height), power_(options.irradiance * (T(2) * options.height / slope_)),
           basis_(aligned_basis(Vec3<T>(1, 0, 0), direction_)) {}
 
     template <SampleSource<T> S>
@@ -52,7 +53,9 @@ public:
         const T x = std::sqrt((T(1) - y) * (T(1) + y)), start = T(-1) / T(16);
         const T d_length = spread.length(T(2) * height_);
         const Vec3<T> zero(0);
-        return {Vec3<T>(start, y, z + (x - start) * slope_), direction_, power_ * (T(1) / spread.photons),
+        return {Vec3<T>(start, y, z + (x - start) * slope_),
+                direction_,
+                power_ * (T(1) / spread.photons),
                 {Tangent<Vec3<T>>{d_length * basis_.u, zero}, Tangent<Vec3<T>>{d_length * basis_.v, zero}}};
     }
 
@@ -67,7 +70,7 @@ private:
 
 /// The lights of the built-in cases.
 template <class T, Flux F>
-using CaseLight = LightSet<DirectionalLight<Vec3<T>, F>, PointLight<Vec3<T>, F>, RingBeam<T, F>>;
+using CaseLight = LightSet<DirectionalLight<Vec3<T>, F>, PointLight<Vec3<T>, F>, RingBeam<T, F>, DiskLight<Vec3<T>, F>>;
 
 /// A scene above the diffuse floor z = 0, its light, and where to look. The picture is the irradiance on the floor.
 template <class T, Flux F = Vec3<T>>
@@ -77,10 +80,12 @@ struct BuiltinCase {
     FilmRectangle film;
     bool periodic = false; ///< with period 1 along x and y; a hit on the floor is wrapped into the unit square, so a
                            ///< footprint over its border needs eye vertices (ghosts) on the other side as well
+    Emitters<T, F> emitters = {}; ///< the light once more, as what paths from the floor can hit; none for
+                                  ///< a light without area
 };
 
-inline constexpr std::array<std::string_view, 6> builtin_case_names = {"wave-focused", "wave-prefocal", "ring",
-                                                                       "ring-zoom",    "ball",          "ball-point"};
+inline constexpr std::array<std::string_view, 8> builtin_case_names = {
+    "wave-focused", "wave-prefocal", "ring", "ring-zoom", "ball", "ball-point", "ring-disk", "ring-disk-zoom"};
 
 namespace detail {
 
@@ -88,9 +93,9 @@ template <class T, Flux F>
 [[nodiscard]] BuiltinCase<T, F> wave_case(T amplitude, bool fresnel) {
     using Materials = std::vector<Material<F>>;
     const typename SineWave<T>::Options wave{.height = 1, .amplitude = amplitude};
-    Scene<T, F> scene({{Floor<T>(0, 1), 0}, {SineWave<T>(wave), 1}},
-                      Materials{Material<F>::diffuse(grey<F>(1)),
-                                Material<F>::dielectric(1.33, fresnel, Follow::refraction)});
+    Scene<T, F> scene(
+        {{Floor<T>(0, 1), 0}, {SineWave<T>(wave), 1}},
+        Materials{Material<F>::diffuse(grey<F>(1)), Material<F>::dielectric(1.33, fresnel, Follow::refraction)});
     // Over the unit square, above the crests.
     const DirectionalLight<Vec3<T>, F> sun({.direction = {0, 0, -1},
                                             .irradiance = grey<F>(1),
@@ -98,29 +103,57 @@ template <class T, Flux F>
     return {std::move(scene), CaseLight<T, F>({sun}), {0, 1, 0, 1}, true};
 }
 
+/// The inner side of a half cylinder on the floor, a perfect mirror.
 template <class T, Flux F>
-[[nodiscard]] BuiltinCase<T, F> ring_case(FilmRectangle film) {
+[[nodiscard]] Scene<T, F> ring_scene(T height) {
     using Materials = std::vector<Material<F>>;
-    const T elevation = T(35) * pi<T> / T(180), height = T(0.5);
-    Scene<T, F> scene(
+    return Scene<T, F>(
         {{Floor<T>(0), 0}, {Cylinder<T>({.radius = 1, .height = height, .facing_x = 1, .least_cosine = 0}), 1}},
         Materials{Material<F>::diffuse(grey<F>(1)), Material<F>::mirror(grey<F>(1))});
+}
+
+inline constexpr double ring_height = 0.5, ring_elevation = 35 * pi<double> / 180;
+
+template <class T, Flux F>
+[[nodiscard]] BuiltinCase<T, F> ring_case(FilmRectangle film) {
+    const T elevation = T(ring_elevation), height = T(ring_height);
     const RingBeam<T, F> sun({.elevation = elevation, .height = height, .irradiance = grey<F>(1)});
-    return {std::move(scene), CaseLight<T, F>({sun}), film, false};
+    return {ring_scene<T, F>(height), CaseLight<T, F>({sun}), film, false};
+}
+
+/// The ring lit by a disk four units away instead of the sun. On the way to the mirror's inner side nothing is in the
+/// way, as every ray that comes from the disk enters the cylinder where there is no mirror. The irradiance at the
+/// origin, were there no mirror, is 1: the disk fills π r²/(r² + d²) of projected solid angle, seen at an angle.
+template <class T, Flux F>
+[[nodiscard]] BuiltinCase<T, F> ring_disk_case(FilmRectangle film) {
+    const double radius = 0.15, distance = 4;
+    const double radiance = (square(radius) + square(distance)) / (pi<double> * square(radius) * sin(ring_elevation));
+    const Vec3<T> center(T(-distance * cos(ring_elevation)), T(0), T(distance * sin(ring_elevation)));
+    // The smallest sphere about the half cylinder: its four corners are on it.
+    const double reach = sqrt(1 + square(ring_height / 2));
+    const BoundingSphere<Vec3<T>> mirror{{0, 0, T(ring_height / 2)},
+                                         T(reach) * (1 + 8 * std::numeric_limits<T>::epsilon())};
+    const DiskLight<Vec3<T>, F> disk(
+        {.center = center, .normal = -center, .radius = T(radius), .radiance = grey<F>(radiance), .target = mirror});
+    return {ring_scene<T, F>(T(ring_height)),
+            CaseLight<T, F>({disk}),
+            film,
+            false,
+            {Emitter<T, F>::disk(center, -center, T(radius), grey<F>(radiance))}};
 }
 
 template <class T, Flux F>
 [[nodiscard]] BuiltinCase<T, F> ball_case(bool point, bool fresnel) {
     using Materials = std::vector<Material<F>>;
     const Vec3<T> center(0, 0, T(1.25));
-    Scene<T, F> scene({{Floor<T>(0), 0}, {Sphere<T>(center, 1), 1}},
-                      Materials{Material<F>::diffuse(grey<F>(1)),
-                                Material<F>::dielectric(1.5, fresnel, Follow::refraction)});
+    Scene<T, F> scene(
+        {{Floor<T>(0), 0}, {Sphere<T>(center, 1), 1}},
+        Materials{Material<F>::diffuse(grey<F>(1)), Material<F>::dielectric(1.5, fresnel, Follow::refraction)});
     const BoundingSphere<Vec3<T>> ball{center, 1};
     std::vector<typename CaseLight<T, F>::AnyLight> light;
     if (point)
-        light.push_back(PointLight<Vec3<T>, F>(
-            {.position = {0, 0, T(5.25)}, .intensity = grey<F>(16), .target = ball}));
+        light.push_back(
+            PointLight<Vec3<T>, F>({.position = {0, 0, T(5.25)}, .intensity = grey<F>(16), .target = ball}));
     else
         light.push_back(
             DirectionalLight<Vec3<T>, F>({.direction = {0, 0, -1}, .irradiance = grey<F>(1), .patch = ball}));
@@ -143,6 +176,10 @@ template <class T, Flux F = Vec3<T>>
         return detail::ring_case<T, F>({-0.1, 2.1, -1.1, 1.1});
     if (name == "ring-zoom")
         return detail::ring_case<T, F>({0.1, 0.9, -0.4, 0.4});
+    if (name == "ring-disk")
+        return detail::ring_disk_case<T, F>({-0.1, 2.1, -1.1, 1.1});
+    if (name == "ring-disk-zoom")
+        return detail::ring_disk_case<T, F>({0.1, 0.9, -0.4, 0.4});
     if (name == "ball")
         return detail::ball_case<T, F>(false, fresnel);
     if (name == "ball-point")

@@ -2,6 +2,7 @@
 /// @file  The built-in cases of `caustics`: their picture is the irradiance on the floor, compared with the exact one.
 #pragma once
 
+#include "common/builtin_film.hpp"
 #include "common/caustics/report.hpp"
 #include "common/image/image.hpp"
 
@@ -13,11 +14,6 @@ struct Rendering {
     double exposure; ///< that shows the picture well as a .png
     Report report;
 };
-
-/// "wave-focused, ring, …"
-[[nodiscard]] std::string builtin_names();
-
-[[nodiscard]] bool is_builtin(const std::string& name);
 
 /// Renders a built-in case. Light that met no specular surface does not count.
 /// Throws UsageError for options that the case does not have.

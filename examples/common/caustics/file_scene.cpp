@@ -88,7 +88,7 @@ Rendering render_file(Options& options) {
         const EyePathMap map(eye.vertices, &Vertex::position, &Vertex::normal);
         report.seconds.map = stopwatch.lap();
         const auto lights = photon_lights(gltf.lamps, gltf.scene);
-        splat_caustics_timed<Color>(gltf.scene, lights, map, WalkLimits{}, options, threads, report,
+        splat_caustics_timed<Color>(gltf.scene, lights, map, WalkLimits{}, options, false, threads, report,
                                     [&](std::size_t vertex, const Color& irradiance) {
                                         const Vertex& v = eye.vertices[vertex];
                                         picture.pixels[v.pixel] += irradiance * v.weight;

@@ -2,16 +2,17 @@
 /// @file  What the program `caustics` is asked to do.
 #pragma once
 
+#include "common/any_sequence.hpp"
+#include "common/command_line.hpp"
+
 #include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 namespace nephroid::examples {
 
-enum class SequenceKind { halton, sobol, random };
 enum class KernelKind { biweight, epanechnikov, cone, uniform, gaussian };
 enum class Layer { all, caustics, direct };
 
@@ -19,7 +20,8 @@ struct Options {
     std::string scene;                                ///< the name of a built-in case or a .glb or .gltf file
     std::uint64_t photons = 20'000;                   ///< caustic photons wanted
     std::optional<std::uint64_t> emit;                ///< photons to emit, instead
-    double smoothing = 8;                             ///< s
+    std::optional<double> smoothing;                  ///< s; nothing: chosen for each photon
+    bool first_order = false;                         ///< photon differential splatting as published
     std::size_t width = 512, height = 512;            ///< pixels
     bool height_given = false;                        ///< else a file's camera chooses it
     unsigned samples = 1;                             ///< eye paths per pixel
@@ -36,17 +38,11 @@ struct Options {
     std::optional<std::filesystem::path> json;        ///< the statistics
 };
 
-/// A command line that cannot be done; `what()` is one line.
-struct UsageError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
-
 /// Reads the command line.
 /// @return  nothing if it asked for help, which has then been printed
 /// Throws UsageError.
 [[nodiscard]] std::optional<Options> read_options(int argc, const char* const* argv);
 
-[[nodiscard]] const char* name_of(SequenceKind sequence);
 [[nodiscard]] const char* name_of(KernelKind kernel);
 
 } // namespace nephroid::examples

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "common/caustics/report.hpp"
 
+#include "common/text.hpp"
+
+#include "nephroid/estimate/second_order/policy.hpp"
+
 #include <cmath>
-#include <cstdio>
 #include <ostream>
 #include <utility>
 #include <vector>
@@ -30,57 +33,22 @@ namespace {
 #endif
 }
 
-template <class... Values>
-[[nodiscard]] std::string text(const char* format, Values... values) {
-    char line[256];
-    std::snprintf(line, sizeof line, format, values...);
-    return line;
-}
-
-/// 1234567 as "1 234 567".
-[[nodiscard]] std::string grouped(std::uint64_t count) {
-    std::string digits = std::to_string(count);
-    for (std::size_t i = digits.size(); i > 3; i -= 3)
-        digits.insert(i - 3, 1, ' ');
-    return digits;
-}
-
 void line(std::ostream& out, const std::string& name, const std::string& value, const std::string& note = "") {
     out << text("  %-20s %16s  %s\n", name.c_str(), value.c_str(), note.c_str());
 }
 
-using Members = std::vector<std::pair<std::string, std::string>>; // name and JSON text
-
-[[nodiscard]] std::string number(double value) { return std::isfinite(value) ? text("%.9g", value) : "null"; }
-
-[[nodiscard]] std::string quoted(const std::string& value) {
-    std::string result = "\"";
-    for (const char c : value) {
-        if (c == '"' || c == '\\')
-            result += '\\';
-        result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return result + "\"";
-}
-
-[[nodiscard]] std::string object(const Members& members, const std::string& indent) {
-    std::string result = "{";
-    for (const auto& [name, value] : members)
-        result += (result.size() > 1 ? ",\n" : "\n") + indent + "  " + quoted(name) + ": " + value;
-    return result + "\n" + indent + "}";
-}
-
 [[nodiscard]] std::vector<std::pair<std::string, double>> passes(const Timings& seconds) {
-    return {{"eye paths", seconds.eye_paths}, {"eye path map", seconds.map}, {"pilot", seconds.pilot},
-            {"trace", seconds.trace},         {"splat", seconds.splat},      {"direct light", seconds.direct},
-            {"other", seconds.other()},       {"total", seconds.total}};
+    return {{"eye paths", seconds.eye_paths}, {"eye path map", seconds.map},    {"pilot", seconds.pilot},
+            {"trace", seconds.trace},         {"footprints", seconds.fit},      {"splat", seconds.splat},
+            {"direct light", seconds.direct}, {"other", seconds.other()},       {"total", seconds.total}};
 }
 
 } // namespace
 
 void print_table(std::ostream& out, const Options& options, const Report& report) {
     const Statistics& statistics = report.statistics;
-    out << "caustics " << options.scene << text(", s = %g, ", options.smoothing) << name_of(options.sequence) << ", "
+    out << "caustics " << options.scene << (options.smoothing ? text(", s = %g, ", *options.smoothing) : options.first_order ? text(", s = %g, ", default_smoothing) : ", ")
+        << (options.first_order ? "first order, " : "") << name_of(options.sequence) << ", "
         << name_of(options.kernel) << (options.pixel_filter ? "" : ", no pixel filter")
         << text(", %zu x %zu, %u thread%s\n", options.width, options.height, report.threads,
                 report.threads == 1 ? "" : "s");
@@ -93,6 +61,8 @@ void print_table(std::ostream& out, const Options& options, const Report& report
     line(out, "peak memory", text("%.1f MB", peak_memory() * 1e-6));
     if (statistics.bounded_footprints > 0)
         line(out, "footprints bounded", grouped(statistics.bounded_footprints));
+    if (statistics.bounded_shifts > 0)
+        line(out, "shifts bounded", grouped(statistics.bounded_shifts));
     if (statistics.corrected_normals > 0)
         line(out, "normals corrected", grouped(statistics.corrected_normals));
 
@@ -123,41 +93,43 @@ void print_table(std::ostream& out, const Options& options, const Report& report
 
 std::string json_text(const Options& options, const Report& report) {
     const Statistics& statistics = report.statistics;
-    Members fates, seconds, top;
+    JsonMembers fates, seconds, top;
     for (std::size_t i = 0; i < fate_count; ++i)
-        fates.push_back({fate_names[i], object({{"photons", std::to_string(statistics.fates[i].photons)},
-                                                {"flux", number(statistics.fates[i].flux)}},
-                                               "    ")});
+        fates.push_back({fate_names[i], json_object({{"photons", std::to_string(statistics.fates[i].photons)},
+                                                     {"flux", json_number(statistics.fates[i].flux)}},
+                                                    "    ")});
     for (const auto& [name, value] : passes(report.seconds))
-        seconds.push_back({name, number(value)});
-    top = {{"scene", quoted(options.scene)},
-           {"smoothing", number(options.smoothing)},
-           {"sequence", quoted(name_of(options.sequence))},
-           {"kernel", quoted(name_of(options.kernel))},
+        seconds.push_back({name, json_number(value)});
+    top = {{"scene", json_string(options.scene)},
+           {"smoothing", options.smoothing ? json_number(*options.smoothing) : json_string("auto")},
+           {"order", options.first_order ? "1" : "2"},
+           {"sequence", json_string(name_of(options.sequence))},
+           {"kernel", json_string(name_of(options.kernel))},
            {"pixel filter", options.pixel_filter ? "true" : "false"},
            {"seed", std::to_string(options.seed)},
            {"width", std::to_string(options.width)},
            {"height", std::to_string(options.height)},
            {"threads", std::to_string(report.threads)},
            {"eye path vertices", std::to_string(report.eye_vertices)},
-           {"peak memory", number(peak_memory())},
+           {"peak memory", json_number(peak_memory())},
            {"photons emitted", std::to_string(statistics.emitted.photons)},
            {"caustic photons", std::to_string(statistics.caustic_photons())},
            {"rays", std::to_string(statistics.rays)},
            {"specular events", std::to_string(statistics.specular_events)},
            {"corrected normals", std::to_string(statistics.corrected_normals)},
            {"bounded footprints", std::to_string(statistics.bounded_footprints)},
-           {"flux emitted", number(statistics.emitted.flux)},
-           {"flux accounted", number(statistics.accounted_flux())},
-           {"fates", object(fates, "  ")},
-           {"seconds", object(seconds, "  ")}};
+           {"bounded shifts", std::to_string(statistics.bounded_shifts)},
+           {"flux emitted", json_number(statistics.emitted.flux)},
+           {"flux accounted", json_number(statistics.accounted_flux())},
+           {"fates", json_object(fates, "  ")},
+           {"seconds", json_object(seconds, "  ")}};
     if (report.errors)
-        top.push_back({"errors", object({{"rel", number(report.errors->relative)},
-                                         {"clipped RMSE", number(report.errors->rmse)},
-                                         {"SSIM", number(report.errors->ssim)},
-                                         {"energy", number(report.errors->energy)}},
-                                        "  ")});
-    return object(top, "") + "\n";
+        top.push_back({"errors", json_object({{"rel", json_number(report.errors->relative)},
+                                              {"clipped RMSE", json_number(report.errors->rmse)},
+                                              {"SSIM", json_number(report.errors->ssim)},
+                                              {"energy", json_number(report.errors->energy)}},
+                                             "  ")});
+    return json_object(top, "") + "\n";
 }
 
 } // namespace nephroid::examples

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/caustics/options.hpp"
+#include "common/errors.hpp"
 
 #include "nephroid/transport/account.hpp"
 
@@ -11,18 +12,10 @@
 
 namespace nephroid::examples {
 
-/// Against the exact picture (mathematics.md's measures).
-struct Errors {
-    double relative = 0; ///< rms(E - E_ref) / mean(E_ref)
-    double rmse = 0;     ///< of the exposed and clipped pictures
-    double ssim = 0;     ///< of the same; NaN for pictures smaller than its window
-    double energy = 0;   ///< sum(E) / sum(E_ref) - 1
-};
-
 /// Seconds of wall clock, pass by pass; `other` is what happens between them.
 struct Timings {
-    double eye_paths = 0, map = 0, pilot = 0, trace = 0, splat = 0, direct = 0, total = 0;
-    [[nodiscard]] double other() const { return total - eye_paths - map - pilot - trace - splat - direct; }
+    double eye_paths = 0, map = 0, pilot = 0, trace = 0, fit = 0, splat = 0, direct = 0, total = 0;
+    [[nodiscard]] double other() const { return total - eye_paths - map - pilot - trace - fit - splat - direct; }
 };
 
 struct Report {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+#include "common/compare/comparison.hpp"
+
+#include "common/compare/memory.hpp"
+
+#include <algorithm>
+
+namespace nephroid::examples {
+
+namespace {
+
+/// Repeating ends when it has taken so long.
+constexpr double enough_seconds = 6;
+/// How far from the expected bandwidth a curve is drawn, in points of the grid: eight times more and less in radius.
+constexpr int curve_reach = 12;
+
+[[nodiscard]] Timing median_of(std::vector<Seconds> runs) {
+    std::ranges::sort(runs, {}, &Seconds::total);
+    Timing timing;
+    timing.seconds = runs[runs.size() / 2];
+    timing.least = runs.front().total();
+    timing.most = runs.back().total();
+    timing.repeats = static_cast<unsigned>(runs.size());
+    return timing;
+}
+
+/// Makes the picture from the lamp on, several times.
+[[nodiscard]] Best measured(const Bench& bench, const Method& method, const Photons& photons, double bandwidth,
+                            unsigned repeats) {
+    Best best;
+    best.bandwidth = bandwidth;
+    std::vector<Seconds> runs;
+    std::optional<double> memory;
+    for (double spent = 0; runs.empty() || (runs.size() < repeats && spent < enough_seconds);) {
+        const MemoryPeak peak;
+        Estimate estimate = method.run(bench, photons, bandwidth, Source::lamp);
+        if (runs.empty()) {
+            memory = peak.bytes();
+            best.irradiance = std::move(estimate.irradiance);
+        }
+        runs.push_back(estimate.seconds);
+        spent += estimate.seconds.total();
+    }
+    best.errors = bench.errors(best.irradiance);
+    best.timing = median_of(std::move(runs));
+    best.timing.memory = memory;
+    return best;
+}
+
+[[nodiscard]] Trial tried(const CompareOptions& options, const Bench& bench, const Method& method,
+                          const Photons& photons) {
+    Trial trial;
+    trial.method = &method;
+    trial.sequence = photons.sequence;
+    trial.wanted = photons.wanted;
+    trial.caustic = photons.deposits.size();
+    trial.emitted = photons.emitted;
+
+    BandwidthSweep sweep({method.expected(bench, photons), method.least(bench, photons), method.most(bench, photons),
+                          method.ratio, method.is_whole},
+                         [&](double bandwidth) {
+                             return bench.errors(method.run(bench, photons, bandwidth, Source::stored).irradiance);
+                         });
+    if (options.sweep && photons.wanted == options.photons.front())
+        sweep.cover(curve_reach);
+    for (const Measure measure : measures) {
+        const double bandwidth = sweep.best(measure);
+        const auto same = std::ranges::find(trial.best.begin(), trial.best.begin() + std::ptrdiff_t(measure), bandwidth,
+                                            &Best::bandwidth);
+        trial.best[std::size_t(measure)] = same != trial.best.begin() + std::ptrdiff_t(measure)
+                                               ? *same
+                                               : measured(bench, method, photons, bandwidth, options.repeats);
+    }
+    trial.sweep = sweep.evaluated();
+    return trial;
+}
+
+} // namespace
+
+std::vector<Trial> compare(const CompareOptions& options, const Bench& bench, const std::function<void(Trial&)>& done) {
+    std::vector<Trial> trials;
+    for (const SequenceKind sequence : options.sequences)
+        for (const std::uint64_t wanted : options.photons) {
+            const Photons photons = bench.trace(sequence, wanted);
+            for (const std::string& id : options.methods) {
+                trials.push_back(tried(options, bench, *find_method(id), photons));
+                done(trials.back());
+            }
+        }
+    return trials;
+}
+
+std::vector<const Trial*> trials_of(const std::vector<Trial>& trials, const std::string& method,
+                                    SequenceKind sequence) {
+    std::vector<const Trial*> found;
+    for (const Trial& trial : trials)
+        if (trial.method->id == method && trial.sequence == sequence)
+            found.push_back(&trial);
+    std::ranges::sort(found, {}, &Trial::wanted);
+    return found;
+}
+
+std::uint64_t target_photons(const CompareOptions& options) {
+    constexpr std::uint64_t papers = 20'000;
+    return std::ranges::find(options.photons, papers) != options.photons.end() ? papers : options.photons.front();
+}
+
+} // namespace nephroid::examples

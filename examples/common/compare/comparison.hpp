@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+/// @file  The comparison itself: every method, sequence and number of photons, swept, measured and timed.
+#pragma once
+
+#include "common/compare/methods.hpp"
+#include "common/compare/sweep.hpp"
+
+#include <functional>
+
+namespace nephroid::examples {
+
+/// Several runs of the same.
+struct Timing {
+    Seconds seconds;            ///< of the run with the median total
+    double least = 0, most = 0; ///< totals
+    unsigned repeats = 0;
+    std::optional<double> memory; ///< bytes at the peak, beyond the eye path vertices and what the program holds anyway
+};
+
+/// A picture made from the lamp with a bandwidth that is best by some measure.
+struct Best {
+    double bandwidth = 0;
+    Errors errors;
+    Timing timing;
+    std::vector<float> irradiance; ///< the picture
+};
+
+/// One method with the photons of one sequence and count.
+struct Trial {
+    const Method* method = nullptr;
+    SequenceKind sequence{};
+    std::uint64_t wanted = 0, caustic = 0, emitted = 0; ///< photons
+    std::map<double, Errors> sweep;                     ///< by bandwidth
+    std::array<Best, measures.size()> best;             ///< by measure
+
+    [[nodiscard]] const Best& by(Measure measure) const { return best[std::size_t(measure)]; }
+    [[nodiscard]] double cost(Measure measure) const { return cost_of(by(measure).errors, measure); }
+};
+
+/// Runs all that the options ask for: for each sequence and count the methods in turn, on the same photons.
+/// @param done  called with each trial when it is finished; may take the pictures away
+[[nodiscard]] std::vector<Trial> compare(const CompareOptions& options, const Bench& bench,
+                                         const std::function<void(Trial&)>& done);
+
+/// Those of one method and sequence, by growing number of photons.
+[[nodiscard]] std::vector<const Trial*> trials_of(const std::vector<Trial>& trials, const std::string& method,
+                                                  SequenceKind sequence);
+
+/// The count at which methods are shown side by side, and that rivals have to match: 20,000, or else the smallest.
+[[nodiscard]] std::uint64_t target_photons(const CompareOptions& options);
+
+} // namespace nephroid::examples

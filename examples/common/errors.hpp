@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/// @file  How wrong a picture of irradiance is, by the measures of the papers and of nephroid's tables.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace nephroid::examples {
+
+/// Against a reference picture.
+struct Errors {
+    double relative = 0; ///< rms(E - E_ref) / mean(E_ref)
+    double rmse = 0;     ///< of the exposed and clipped pictures
+    double ssim = 0;     ///< of the same; NaN for pictures smaller than its window
+    double energy = 0;   ///< sum(E) / sum(E_ref) - 1
+};
+
+/// @param irradiance  width * height pixels, row 0 at the bottom
+/// @param reference   as many
+/// @return  nothing where no light falls on the reference
+[[nodiscard]] std::optional<Errors> errors_against(const std::vector<double>& reference,
+                                                   const std::vector<float>& irradiance, std::size_t width,
+                                                   std::size_t height);
+
+} // namespace nephroid::examples

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#include "common/relaxation/study.hpp"
+
+#include "common/stopwatch.hpp"
+
+#include "nephroid/relaxation/relax.hpp"
+
+#include <utility>
+
+namespace nephroid::examples::relaxation {
+
+namespace {
+
+[[nodiscard]] MapStudy study_map(const Subject& subject, const std::vector<StoredPhoton>& photons,
+                                 const Options& options, bool sweep, ThreadExecutor& threads) {
+    MapStudy result;
+    Stopwatch stopwatch;
+    const Map map = map_of(photons);
+    result.build_seconds = stopwatch.lap();
+    for (const std::size_t k : options.neighbours)
+        result.looks.push_back(look(subject, map, k, threads));
+    if (sweep && subject.truth) {
+        const BestNeighbours best = best_neighbours(subject, map, options.sweep, threads);
+        result.best = look(subject, map, best.relative, threads);
+        result.best_picture = look(subject, map, best.rmse, threads);
+    }
+    const auto evenly_lit = options.spectrum ? options.spectrum : subject.evenly_lit;
+    if (evenly_lit && subject.floor)
+        result.blue_noise = blue_noise(photons, *evenly_lit, threads);
+    return result;
+}
+
+} // namespace
+
+Study study(const Subject& subject, const Options& options, ThreadExecutor& threads) {
+    Study result;
+    result.threads = threads.threads();
+    result.before = study_map(subject, subject.photons, options, true, threads);
+
+    const auto access = photon_access(&StoredPhoton::position, &StoredPhoton::normal, &StoredPhoton::flux);
+    if (options.relaxation.constrain)
+        for (const auto& constraint : detect_features(subject.photons, access, options.relaxation, threads))
+            result.weights.push_back(constraint.weight);
+    result.relaxed = subject.photons;
+    Stopwatch stopwatch;
+    if (subject.project)
+        result.relaxation = relax(result.relaxed, access, options.relaxation, threads, subject.project);
+    else
+        result.relaxation = relax(result.relaxed, access, options.relaxation, threads);
+    result.relaxation_seconds = stopwatch.lap();
+
+    result.after = study_map(subject, result.relaxed, options, false, threads);
+    return result;
+}
+
+} // namespace nephroid::examples::relaxation
