@@ -304,3 +304,41 @@ TEST_CASE_TEMPLATE("splat: is made of any vector", T, float, double) {
         CHECK(flux_of(*outcome.splat) == doctest::Approx(2));
     });
 }
+
+TEST_CASE_TEMPLATE("splat: a fixed footprint is a disk whatever the differential says or if there is none", T, float,
+                   double) {
+    using Policies = SplatPolicies<UniformKernel, NoPixelFilter, DiscardCollapsed, BoundMajorRadius, FixedFootprint>;
+    const auto vertices = lattice<T>();
+    const auto map = map_of(vertices);
+    const Policies policies{.shape = {0.25}};
+    const auto whole = deposit_at<T>(0.5, 0.5, 0.1, 0, 0.3, 1);
+    const Deposit<Vec<T>, T, 0> bare{whole.position, whole.normal, whole.direction, whole.flux, {}};
+    const auto one = make_splat(whole, map, policies), other = make_splat(bare, map, policies);
+    REQUIRE(one.splat);
+    REQUIRE(other.splat);
+    const double tolerance = 8 * double(std::numeric_limits<T>::epsilon());
+    for (const auto& splat : {*one.splat, *other.splat}) {
+        // Rows of length 1/radius, across each other and in the plane; the flux over radius².
+        CHECK(std::abs(double(length(splat.row_a)) - 4) <= 4 * tolerance);
+        CHECK(std::abs(double(length(splat.row_b)) - 4) <= 4 * tolerance);
+        CHECK(std::abs(double(dot(splat.row_a, splat.row_b))) <= 16 * tolerance);
+        CHECK(std::abs(double(dot(splat.row_a, splat.normal))) <= 4 * tolerance);
+        CHECK(std::abs(double(splat.peak) - 16 * double(whole.flux)) <= 16 * tolerance * double(whole.flux));
+    }
+    CHECK(one.splat->row_a == other.splat->row_a);
+    CHECK(one.splat->peak == other.splat->peak);
+    // The pixel filter widens it as any other.
+    const SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, FixedFootprint> filtered{
+        .shape = {0.25}};
+    const double p = double(map.spacing_at(whole.position)), wide = 0.0625 + 2.0 / 3 * p * p;
+    CHECK(double(make_splat(bare, map, filtered).splat->peak) == doctest::Approx(double(whole.flux) / wide));
+    // A differential that is no number does not matter; a position does.
+    auto odd = whole;
+    odd.d_position[0].x = std::numeric_limits<T>::quiet_NaN();
+    CHECK(make_splat(odd, map, policies).fate == Fate::splatted);
+    odd.position.x = std::numeric_limits<T>::quiet_NaN();
+    CHECK(make_splat(odd, map, policies).fate == Fate::invalid);
+    // A radius that is none makes no splat.
+    for (const double radius : {0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+        CHECK(!make_splat(bare, map, Policies{.shape = {radius}}).splat);
+}

@@ -337,3 +337,68 @@ TEST_CASE_TEMPLATE("point tree: takes any vector", T, float, double) {
         CHECK(tree.nearest_leaf(tree.relative(cloud[7])) < tree.leaves().size());
     });
 }
+
+TEST_CASE_TEMPLATE("point tree: the nearest points within a limit and of those accepted are counted", T, float,
+                   double) {
+    using V = glm::vec<3, T>;
+    const auto cloud = random_cloud<V>(2000, 1);
+    const PointTree<V> tree = tree_of(cloud);
+    Draws draw(35);
+    for (int query = 0; query < 60; ++query) {
+        const V place = tree.relative(point<V>(draw.in(-0.2, 1.2), draw.in(-0.2, 1.2), draw.in(-0.2, 1.2)));
+        const T limit2 = T(query % 3 == 0 ? 1e-4 : query % 3 == 1 ? 0.02 : 10);
+        const auto accepts = [&](std::size_t slot) { return tree.index(slot) % 3 == 0; };
+        std::vector<T> all;
+        for (std::size_t i = 0; i < cloud.size(); i += 3)
+            if (const T d2 = length2(V(tree.relative(cloud[i]) - place)); d2 < limit2)
+                all.push_back(d2);
+        std::sort(all.begin(), all.end());
+        for (const std::size_t wanted : {1u, 10u, 200u, 1000u}) {
+            std::vector<Neighbour<T>> found(wanted);
+            const std::size_t count = tree.nearest(place, found, limit2, accepts);
+            REQUIRE(count == (std::min)(wanted, all.size()));
+            found.resize(count);
+            if (count == wanted)
+                for (const auto& n : found)
+                    REQUIRE(n.distance2 <= found.front().distance2); // the farthest comes first
+            std::sort(found.begin(), found.end(),
+                      [](const auto& a, const auto& b) { return a.distance2 < b.distance2; });
+            for (std::size_t i = 0; i < count; ++i) {
+                REQUIRE(accepts(found[i].slot));
+                REQUIRE(std::abs(found[i].distance2 - all[i]) <= 4 * std::numeric_limits<T>::epsilon() * all[i]);
+            }
+        }
+    }
+}
+
+// Heaps of a leaf's points, each half as far from the next one: more levels than wait for their turn at a time.
+TEST_CASE("point tree: the nearest points are found in a tree hundreds of levels deep") {
+    using V = glm::dvec3;
+    Cloud<V> cloud;
+    for (int level = 0; level < 400; ++level)
+        for (int i = 0; i < 40; ++i)
+            for (const double side : {-1.0, 1.0}) // so that the origin is 0
+                cloud.push_back({std::ldexp(side * (1 + i / 64.0), -level), 0, 0});
+    const PointTree<V> tree = tree_of(cloud);
+    std::vector<std::uint32_t> ends; // of the subtrees that a node lies in
+    std::size_t depth = 0;
+    for (std::uint32_t i = 0; i < tree.nodes().size(); ++i) {
+        while (!ends.empty() && ends.back() <= i)
+            ends.pop_back();
+        ends.push_back(tree.nodes()[i].skip);
+        depth = (std::max)(depth, ends.size());
+    }
+    REQUIRE(depth > 200);
+    for (const double x : {1.0, 1e-3, 1e-20, 1e-60, 0.0}) {
+        const V place = tree.relative({x, 0, 0});
+        std::vector<Neighbour<double>> found(50);
+        REQUIRE(tree.nearest(place, found) == 50);
+        std::vector<double> all;
+        for (const V& p : cloud)
+            all.push_back(square(tree.relative(p).x - place.x));
+        std::sort(all.begin(), all.end());
+        std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.distance2 < b.distance2; });
+        for (std::size_t i = 0; i < 50; ++i)
+            REQUIRE(found[i].distance2 == doctest::Approx(all[i]).epsilon(1e-14));
+    }
+}

@@ -38,7 +38,7 @@ at_least() { # value, bound, what
 measure() { # scene, smoothing, more arguments
     scene=$1 smoothing=$2
     shift 2
-    "$caustics" "$scene" --smoothing "$smoothing" "$@" --output m.png --json m.json >/dev/null || fail "$scene"
+    "$caustics" "$scene" --first-order --smoothing "$smoothing" "$@" --output m.png --json m.json >/dev/null || fail "$scene"
     at_most "$(value m.json energy)" 0.001 "$scene, s = $smoothing: energy error"
 }
 measure wave-focused 3
@@ -56,6 +56,18 @@ measure ring-zoom 5
 at_most "$(value m.json rel)" 0.16 "ring-zoom, s = 5: rel"
 measure ring-zoom 8 --photons 1280000
 at_most "$(value m.json rel)" 0.09 "ring-zoom, s = 8, 1,280,000 photons: rel"
+
+# The same photons to second order, with nothing to choose.
+for scene in wave-focused wave-prefocal ring-zoom; do
+    "$caustics" $scene --output m.png --json $scene.json >/dev/null || fail "$scene, second order"
+    at_most "$(value $scene.json energy)" 0.001 "$scene, second order: energy error"
+done
+at_most "$(value wave-focused.json rel)" 0.165 "wave-focused, second order: rel"
+at_most "$(value wave-focused.json 'clipped RMSE')" 0.046 "wave-focused, second order: clipped RMSE"
+at_most "$(value wave-prefocal.json rel)" 0.016 "wave-prefocal, second order: rel"
+at_least "$(value wave-prefocal.json SSIM)" 0.999 "wave-prefocal, second order: SSIM"
+at_most "$(value ring-zoom.json 'clipped RMSE')" 0.0225 "ring-zoom, second order: clipped RMSE"
+at_least "$(value ring-zoom.json SSIM)" 0.95 "ring-zoom, second order: SSIM"
 
 for scene in ring wave-focused; do
     for threads in 1 2 7; do

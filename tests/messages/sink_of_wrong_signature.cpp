@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+// expect: the sink cannot be called as sink(std::size_t vertex, const F& value)
+#include "messages/renderer.hpp"
+
+int main() {
+    nephroid::PhotonSplatter<V, float>(map).for_each([](Vertex&, float) {});
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "nephroid/relaxation/options.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <stdexcept>
+
+using namespace nephroid;
+
+namespace {
+
+std::string complaint(const RelaxationOptions& options) {
+    try {
+        detail::check(options, "relax");
+    } catch (const std::invalid_argument& error) {
+        return error.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("relaxation options: the defaults and the bounds are fine") {
+    CHECK(complaint({}).empty());
+    CHECK(complaint({.iterations = 0, .neighbours = 1, .feature_neighbours = 16, .alpha = 0, .beta = 1}).empty());
+    CHECK(complaint({.neighbours = 32, .feature_neighbours = 4096, .rho = 0, .cos_same_surface = -1}).empty());
+}
+
+TEST_CASE("relaxation options: what cannot be is named with its value") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    CHECK(complaint({.neighbours = 0}) == "nephroid::relax: neighbours 0 is not 1 to 32");
+    CHECK(complaint({.neighbours = 33}) == "nephroid::relax: neighbours 33 is not 1 to 32");
+    CHECK(complaint({.over_relaxation = 0}) == "nephroid::relax: over_relaxation 0 is not positive and finite");
+    CHECK(complaint({.final_relaxation = nan}) == "nephroid::relax: final_relaxation nan is not positive and finite");
+    CHECK(complaint({.final_step = 1.5}) == "nephroid::relax: final_step 1.5 is not above 0 and at most 1");
+    CHECK(complaint({.feature_neighbours = 15}) == "nephroid::relax: feature_neighbours 15 is not 16 to 4096");
+    CHECK(complaint({.alpha = -0.5}) == "nephroid::relax: alpha -0.5 is not at least 0 and below beta");
+    CHECK(complaint({.alpha = 0.5, .beta = 0.5}) == "nephroid::relax: alpha 0.5 is not at least 0 and below beta");
+    CHECK(complaint({.beta = 1.25}) == "nephroid::relax: beta 1.25 is not at most 1");
+    CHECK(complaint({.evidence = -1}) == "nephroid::relax: evidence -1 is not 0 or positive, and finite");
+    CHECK(complaint({.rho = -1}) == "nephroid::relax: rho -1 is not 0 or positive, and finite");
+    CHECK(complaint({.cos_same_surface = 2}) == "nephroid::relax: cos_same_surface 2 is not -1 to 1");
+    CHECK(complaint({.leash = 0}) == "nephroid::relax: leash 0 is not positive and finite");
+}

@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT
+#include "nephroid/relaxation/relax.hpp"
+
+#include "relaxation/cloud.hpp"
+#include "support/foreign_vectors.hpp"
+
+#include <doctest/doctest.h>
+
+#include <complex>
+#include <limits>
+#include <string>
+
+using namespace nephroid;
+using namespace nephroid::tests;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+template <class P>
+RelaxationReport run(std::vector<P>& photons, const RelaxationOptions& options) {
+    return relax(photons, access_to<P>(), options, SerialExecutor{});
+}
+
+template <class P>
+bool all_photons_finite(const std::vector<P>& photons) {
+    return std::all_of(photons.begin(), photons.end(), [](const P& p) { return all_finite(p.position); });
+}
+
+/// One photon's move at the first iteration, from eq. 1 to 3 and 11 in wide precision and from all distances.
+Space expected_move(const std::vector<Stored>& photons, std::size_t i, double lambda, double rho) {
+    const auto all = distances(photons, i);
+    const Space x = widen(photons[i].position), n = widen(photons[i].normal);
+    const Wide r = all[6].first, reach = Wide(lambda) * r;
+    Space force{0, 0, 0};
+    for (int k = 0; k < 6; ++k) {
+        const Space offset = x - widen(photons[all[std::size_t(k)].second].position);
+        const Wide d = offset.length();
+        force = force + (reach / d - d / reach) * offset;
+    }
+    force = (Wide(1) / Wide(6)) * force.across(n);
+    const double ratio = static_cast<double>(force.length() / r) / rho;
+    return Wide(rho > 0 ? std::exp2(-ratio * ratio) : 1.0) * force;
+}
+
+/// The mean distance to the nearest other photon over that of as many random ones, 1/(2 √n), away from the border.
+template <class P>
+double nearest_distance(const std::vector<P>& photons) {
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const auto& p = photons[i].position;
+        if (std::abs(double(p.x) - 0.5) > 0.4 || std::abs(double(p.y) - 0.5) > 0.4)
+            continue;
+        sum += distances(photons, i).front().first;
+        ++count;
+    }
+    return sum / count * 2 * std::sqrt(double(photons.size()));
+}
+
+/// The share of photons left of 0.5 that lie between there and 0.5 + width, and those that came from the dense side.
+double crossed(const std::vector<Stored>& before, const std::vector<Stored>& after) {
+    double count = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+        count +=
+            before[i].position.x < 0.5 && after[i].position.x > 0.502 && std::abs(before[i].position.y - 0.5) < 0.4;
+    return count;
+}
+
+} // namespace
+
+// Coordinates relative to the map's middle, distances of 0.03, two dozen roundings.
+TEST_CASE("relaxation: the first iteration moves photons as the formulas say") {
+    const auto start = random_floor(400, 71);
+    for (const double rho : {0.0, 0.3})
+        for (const double lambda : {1.0, 2.0}) {
+            auto photons = start;
+            run(photons, {.iterations = 1, .over_relaxation = lambda, .constrain = false, .rho = rho, .leash = 100});
+            double worst = 0;
+            for (std::size_t i = 0; i < photons.size(); ++i)
+                worst = std::max(worst, distance(photons[i].position,
+                                                 widen(start[i].position) + expected_move(start, i, lambda, rho)));
+            CHECK(worst <= 1e-13);
+        }
+}
+
+TEST_CASE("relaxation: the second iteration damps moves by the radius of the first") {
+    auto photons = random_floor(300, 72);
+    const auto first = photons;
+    run(photons, {.iterations = 1, .constrain = false, .leash = 100});
+    const auto second = photons;
+    // Two iterations, of which the second follows half of its force and λ has come down to 1.2 + 0.8 exp(−1.5).
+    auto both = first;
+    run(both, {.iterations = 2, .final_step = 0.5, .constrain = false, .leash = 100});
+    double worst = 0;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const Space force = expected_move(second, i, 1.2 + 0.8 * std::exp(-1.5), 0);
+        const double ratio = static_cast<double>(force.length()) / distances(first, i)[6].first / 0.3;
+        const Space there = widen(second[i].position) + Wide(0.5 * std::exp2(-ratio * ratio)) * force;
+        worst = std::max(worst, distance(both[i].position, there));
+    }
+    CHECK(worst <= 1e-12);
+}
+
+TEST_CASE("relaxation: photons stay in their tangent planes whichever way these lie") {
+    Draws draw(73);
+    const Space n = draw.direction(), u = draw.direction().across(n).unit(), v = n.cross(u);
+    std::vector<Stored> photons;
+    for (int i = 0; i < 500; ++i) {
+        const double x = draw.in(0, 1);
+        photons.push_back({i, narrow<glm::dvec3>(Wide(x) * u + Wide(draw.in(0, 1)) * v), narrow<glm::dvec3>(n), 1});
+    }
+    const auto start = photons;
+    const auto report = run(photons, {});
+    CHECK_FALSE(same_positions(start, photons));
+    for (const Stored& photon : photons)
+        CHECK(std::abs(static_cast<double>(widen(photon.position).dot(n))) < 1e-13);
+    CHECK(report.photons == 500);
+    CHECK(report.iterations == 20);
+    CHECK(report.mean_step.size() == 20);
+    CHECK(report.mean_step.back() < 0.1);
+}
+
+// The nearest of random photons is at 1/(2 √n) on average; on a hexagonal lattice at 1.0746/√n, 2.15 times as far.
+// Blue noise lies between, over-relaxed photons, which form cells, nearer to each other than others: of 1280 random
+// ones the mean varies by 0.52/√1280 = 0.015 of itself.
+TEST_CASE_TEMPLATE("relaxation: random photons come to lie evenly apart", T, float, double) {
+    using V = glm::vec<3, T>;
+    auto photons = random_floor<V>(2000, 74);
+    CHECK(nearest_distance(photons) == doctest::Approx(1).epsilon(0.06));
+    auto cells = photons;
+    run(cells, {.iterations = 30});
+    CHECK(nearest_distance(cells) > 1.25);
+    run(photons, {.iterations = 30, .over_relaxation = 1, .final_relaxation = 1});
+    CHECK(nearest_distance(photons) > 1.5);
+    CHECK(nearest_distance(photons) < 2.15);
+}
+
+/// The power of a map's low frequencies, below half the principal one, over that of white noise; a Hann window keeps
+/// what the border does out of it.
+double low_power(const std::vector<Stored>& photons) {
+    const double pi2 = 2 * std::numbers::pi, principal = std::sqrt(2 / std::sqrt(3.0) * double(photons.size()));
+    double sum = 0, count = 0;
+    const int limit = int(principal / 2);
+    for (int a = 0; a <= limit; ++a)
+        for (int b = -limit; b <= limit; ++b) {
+            const double f = std::hypot(a, b);
+            if (f < 3 || f > principal / 2)
+                continue; // the window itself reaches up to √2
+            std::complex<double> wave(0);
+            for (const Stored& photon : photons) {
+                const auto& p = photon.position;
+                if (p.x < 0 || p.x > 1 || p.y < 0 || p.y > 1)
+                    continue;
+                const double window = (1 - std::cos(pi2 * p.x)) * (1 - std::cos(pi2 * p.y));
+                wave += std::polar(window, pi2 * (a * p.x + b * p.y));
+            }
+            sum += std::norm(wave) / (2.25 * double(photons.size())); // the mean of the squared window
+            ++count;
+        }
+    return sum / count;
+}
+
+TEST_CASE("relaxation: low frequencies fall by more than ten decibels with and without over-relaxation") {
+    for (const bool over : {true, false}) {
+        auto photons = random_floor(800, 75);
+        const double before = low_power(photons);
+        CHECK(before > 0.7); // 1 on average over some 180 independent frequencies
+        CHECK(before < 1.4);
+        RelaxationOptions options{.iterations = 50};
+        if (!over)
+            options.over_relaxation = options.final_relaxation = 1;
+        run(photons, options);
+        CHECK(10 * std::log10(low_power(photons)) < -10);
+    }
+}
+
+TEST_CASE("relaxation: an edge stays where it is and without constraints it flows away") {
+    const auto start = stepped_floor(5000, 76);
+    auto held = start, limited = start, loose = start;
+    CHECK(run(held, {}).constrained_photons > 200);
+    run(limited, {.constrain = false});
+    run(loose, {.constrain = false, .rho = 0});
+    CHECK(crossed(start, held) < 15);
+    CHECK(crossed(start, limited) > 60);
+    CHECK(crossed(start, loose) > crossed(start, limited));
+}
+
+TEST_CASE("relaxation: photons at the border do not drift off") {
+    for (const bool constrain : {true, false})
+        for (const double rho : {0.3, 0.0}) {
+            const auto start = random_floor(1000, 77);
+            auto photons = start;
+            run(photons, {.iterations = 50, .constrain = constrain, .rho = rho});
+            double farthest = 0;
+            for (std::size_t i = 0; i < photons.size(); ++i)
+                farthest =
+                    std::max(farthest, length(photons[i].position - start[i].position) / distances(start, i)[6].first);
+            CHECK(farthest <= 2 * (1 + 1e-12)); // the leash
+        }
+}
+
+TEST_CASE("relaxation: only positions change and no photon is lost") {
+    auto photons = random_floor(500, 78);
+    for (Stored& photon : photons)
+        photon.flux = 1.0 / (1 + photon.number);
+    const auto start = photons;
+    run(photons, {});
+    REQUIRE(photons.size() == start.size());
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        CHECK(photons[i].number == start[i].number);
+        CHECK(photons[i].normal == start[i].normal);
+        CHECK(photons[i].flux == start[i].flux);
+    }
+    auto again = start;
+    CHECK(run(again, {.iterations = 0}).iterations == 0);
+    CHECK(same_positions(again, start));
+}
+
+TEST_CASE("relaxation: is the same bit for bit for any number of threads") {
+    const auto start = stepped_floor(3000, 79);
+    const RelaxationOptions options{.iterations = 10, .flux_diffusion = FluxDiffusion::conserving};
+    auto serial = start;
+    run(serial, options);
+    for (const unsigned count : {2u, 5u}) {
+        ThreadExecutor threads(count);
+        auto parallel = start;
+        const auto report = relax(parallel, access_to<Stored>(), options, threads);
+        CHECK(same_positions(parallel, serial));
+        auto again = start;
+        CHECK(report.mean_step == run(again, options).mean_step);
+    }
+}
+
+TEST_CASE("relaxation: flux is evened out on the way if asked for and its total stays") {
+    auto photons = random_floor(1000, 80);
+    double before = 0, after = 0, spread = 0;
+    for (Stored& photon : photons)
+        before += photon.flux = photon.number % 2;
+    run(photons, {.flux_diffusion = FluxDiffusion::conserving});
+    for (const Stored& photon : photons)
+        after += photon.flux, spread += std::pow(photon.flux - 0.5, 2) / 1000;
+    CHECK(std::abs(after - before) <= 1000 * 7 * 20 * 1.2e-16);
+    CHECK(spread < 0.08); // from 0.25
+}
+
+TEST_CASE("relaxation: any vectors and any way to reach a photon's parts will do") {
+    for_each_vector<float>([]<class V>() {
+        using t = vector_traits<V>;
+        auto photons = random_floor<V>(200, 81);
+        const auto start = photons;
+        run(photons, {.iterations = 3});
+        double moved = 0;
+        for (std::size_t i = 0; i < photons.size(); ++i) {
+            moved += std::abs(double(t::x(photons[i].position)) - double(t::x(start[i].position)));
+            CHECK(t::z(photons[i].position) == 0);
+        }
+        CHECK(moved > 0.01);
+    });
+    struct Odd {
+        glm::vec3 data[2];
+        double watts;
+    };
+    std::vector<Odd> photons;
+    for (const auto& p : random_floor<glm::vec3>(100, 82))
+        photons.push_back({{p.position, p.normal}, 1.0});
+    const auto access = photon_access(
+        [](auto& p) -> auto& { return p.data[0]; }, [](const Odd& p) { return p.data[1]; }, &Odd::watts);
+    CHECK(relax(photons, access, RelaxationOptions{.iterations = 2}, SerialExecutor{}).photons == 100);
+    static_assert(MovesPhotons<decltype(access), std::vector<Odd>>);
+    static_assert(!MovesPhotons<decltype(access), const std::vector<Odd>>);
+    static_assert(ReadsPhotons<decltype(access), const std::vector<Odd>>);
+    static_assert(!ReadsPhotons<PhotonAccess<double Odd::*, double Odd::*, double Odd::*>, std::vector<Odd>>);
+}
+
+TEST_CASE("relaxation: the caller may put photons back on a curved surface") {
+    Draws draw(83);
+    std::vector<Stored> photons;
+    for (int i = 0; i < 1000; ++i) { // on a sphere about (5, 0, 0)
+        const auto n = narrow<glm::dvec3>(draw.direction());
+        photons.push_back({i, n + glm::dvec3(5, 0, 0), n, 1});
+    }
+    const auto to_sphere = [](std::size_t, const glm::dvec3& p) {
+        const glm::dvec3 offset = p - glm::dvec3(5, 0, 0);
+        return (1 / length(offset)) * offset + glm::dvec3(5, 0, 0);
+    };
+    relax(photons, access_to<Stored>(), {.iterations = 10}, SerialExecutor{}, to_sphere);
+    double nearest = 0;
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        CHECK(std::abs(length(photons[i].position - glm::dvec3(5, 0, 0)) - 1) < 1e-14);
+        nearest += distances(photons, i).front().first / 1000;
+    }
+    CHECK(nearest * 2 * std::sqrt(1000 / (4 * std::numbers::pi)) > 1.25);
+    const auto astray = [](std::size_t photon, const glm::dvec3& p) {
+        return photon == 17 ? glm::dvec3(not_a_number) : p;
+    };
+    CHECK_THROWS_WITH(relax(photons, access_to<Stored>(), {}, SerialExecutor{}, astray),
+                      "nephroid::relax: project put photon 17 at (nan, nan, nan); every position must be finite");
+}
+
+TEST_CASE("relaxation: progress is told after each iteration and may stop it") {
+    auto photons = random_floor(200, 84), twice = photons;
+    std::vector<unsigned> told;
+    const auto report = relax(photons, access_to<Stored>(), {.iterations = 10}, SerialExecutor{}, StayInPlane{},
+                              [&](unsigned iteration) {
+                                  told.push_back(iteration);
+                                  return iteration < 1;
+                              });
+    CHECK(told == std::vector<unsigned>{0, 1});
+    CHECK(report.iterations == 2);
+    CHECK_FALSE(same_positions(photons, twice));
+}
+
+TEST_CASE("relaxation: no photon and a few photons are no trouble") {
+    std::vector<Stored> nobody;
+    CHECK(run(nobody, {}).photons == 0);
+    CHECK(run(nobody, {}).iterations == 0);
+    for (int count = 1; count <= 9; ++count)
+        for (const bool constrain : {true, false}) {
+            auto photons = random_floor(count, std::uint32_t(85 + count));
+            const auto start = photons;
+            run(photons, {.iterations = 50, .constrain = constrain, .rho = 0});
+            CHECK(all_photons_finite(photons));
+            if (count <= 2)
+                CHECK(same_positions(photons, start)); // nothing tells how far apart they should be
+        }
+}
+
+TEST_CASE("relaxation: photons on a line stay on it if their force does") {
+    Draws draw(95);
+    std::vector<Stored> photons;
+    for (int i = 0; i < 300; ++i)
+        photons.push_back(floor_photon(draw.in(0, 1), 0, i));
+    auto held = photons;
+    run(photons, {.iterations = 50, .constrain = false});
+    for (const Stored& photon : photons)
+        CHECK(photon.position.y == 0);
+    run(held, {.iterations = 50});
+    CHECK(all_photons_finite(held));
+}
+
+TEST_CASE_TEMPLATE("relaxation: photons in the same place part the same way each time", T, float, double) {
+    using V = glm::vec<3, T>;
+    auto photons = random_floor<V>(400, 96);
+    for (std::size_t i = 0; i < 200; i += 2)
+        photons[i].position = photons[i + 1].position; // pairs
+    for (std::size_t i = 200; i < 230; ++i)
+        photons[i].position = photons[200].position; // and thirty
+    auto again = photons;
+    auto held = photons; // by the feature that thirty photons in one place are
+    run(held, {});
+    CHECK(all_photons_finite(held));
+    run(photons, {.constrain = false});
+    run(again, {.constrain = false});
+    CHECK(same_positions(photons, again));
+    CHECK(all_photons_finite(photons));
+    std::size_t together = 0;
+    for (std::size_t i = 0; i < photons.size(); ++i)
+        together += distances(photons, i).front().first == 0;
+    CHECK(together == 0);
+}
+
+TEST_CASE_TEMPLATE("relaxation: all photons in one place stay there", T, float, double) {
+    using V = glm::vec<3, T>;
+    std::vector<StoredPhoton<V>> photons(5000, floor_photon<V>(0.25, 0.75));
+    const auto start = photons;
+    run(photons, {});
+    CHECK(same_positions(photons, start));
+}
+
+// The other side's photons are denser by ten: they would push were they not on the other side.
+TEST_CASE("relaxation: the two sides of a thin wall do not feel each other") {
+    auto upper = random_floor(500, 97);
+    auto lower = random_floor(5000, 98);
+    for (Stored& photon : lower)
+        photon.position.z = -1e-4, photon.normal = {0, 0, -1};
+    auto both = upper;
+    both.insert(both.end(), lower.begin(), lower.end());
+    run(both, {.iterations = 10, .constrain = false});
+    run(upper, {.iterations = 10, .constrain = false});
+    double apart =
+        0; // the origin that coordinates are relative to differs: the same to rounding that iterations amplify
+    for (std::size_t i = 0; i < upper.size(); ++i)
+        apart = std::max(apart, length(upper[i].position - both[i].position));
+    CHECK(apart < 1e-9);
+}
+
+TEST_CASE("relaxation: photons that cannot be are refused by their number") {
+    for (const double bad : {not_a_number, infinity}) {
+        auto photons = random_floor(30, 99);
+        photons[12].position.y = bad;
+        const auto start = photons;
+        const std::string value = std::isnan(bad) ? "nan" : "inf";
+        const std::string message = [&] {
+            try {
+                run(photons, {});
+            } catch (const std::invalid_argument& error) {
+                return std::string(error.what());
+            }
+            return std::string("nothing");
+        }();
+        CHECK(message.find("nephroid::relax: point 12 is at (") == 0);
+        CHECK(message.find(value) != std::string::npos);
+        CHECK(same_positions(photons, start));
+    }
+    auto photons = random_floor(30, 100);
+    photons[7].normal = {0, 0, 2};
+    CHECK_THROWS_WITH(run(photons, {}),
+                      "nephroid::relax: photon 7 has the normal (0, 0, 2); normals must be of unit length");
+}

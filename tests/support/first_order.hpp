@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+/// @file  The policies of plain splatting: each photon where it lands, all with the same smoothing.
+#pragma once
+
+#include "nephroid/estimate/splat.hpp"
+
+namespace nephroid::tests {
+
+using FirstOrderPolicies =
+    SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, FirstOrder>;
+
+} // namespace nephroid::tests
