@@ -108,7 +108,7 @@ public:
     /// Adds a pass of photons.
     ///
     /// @param map      the pass's photons, and no others
-    /// @param emitted  the number that their fluxes were divided by at emission: the pass's count, or its `total`, > 0
+    /// @param emitted  the number that their fluxes were divided by at emission: the pass's count, > 0
     /// @param executor who runs the work; the result does not depend on it
     template <class E = SerialExecutor>
         requires ExecutorArgument<E>
