@@ -49,13 +49,15 @@ namespace {
 
 TEST_CASE("caustics: options are read, and numbers may be written as powers of ten") {
     const auto options = read({"ring", "--photons", "1e6", "--size", "640x360", "--sequence", "sobol", "--kernel", "cone",
-                               "--pixel-filter", "off", "--view", "0", "1", "-0.5", "0.5"});
+                               "--first-order", "--smoothing", "6.5", "--pixel-filter", "off", "--view", "0", "1", "-0.5", "0.5"});
     REQUIRE(options.has_value());
     CHECK(options->photons == 1'000'000);
     CHECK(options->width == 640);
     CHECK(options->height == 360);
     CHECK(options->sequence == SequenceKind::sobol);
     CHECK(options->kernel == KernelKind::cone);
+    CHECK(options->first_order);
+    CHECK(options->smoothing == 6.5);
     CHECK_FALSE(options->pixel_filter);
     REQUIRE(options->view.has_value());
     CHECK((*options->view)[2] == -0.5);
@@ -71,6 +73,8 @@ TEST_CASE("caustics: what cannot be done is refused with a line that names the o
         }
         return "accepted";
     };
+    CHECK(message({"ring", "--kernel", "cone"}).find("--first-order") != std::string::npos);
+    CHECK(message({"ring", "--smoothing", "much"}).find("--smoothing") != std::string::npos);
     CHECK(message({"ring", "--photons", "0"}).find("--photons") != std::string::npos);
     CHECK(message({"ring", "--photons", "-5"}).find("--photons") != std::string::npos);
     CHECK(message({"ring", "--photons", "many"}).find("'many'") != std::string::npos);

@@ -304,8 +304,9 @@ TEST_CASE("point tree: far from the origin no digit of the given positions is lo
         const double exact = double(cloud[tree.index(slot)].x) - double(tree.origin().x);
         REQUIRE(double(tree.x()[slot]) == exact);
     }
-    CHECK(tree.bounds().high[0] <= 0.51f);
-    CHECK(tree.bounds().low[0] >= -0.51f);
+    // About the median: of 500 points in a unit interval it lies within 0.2 of the middle, by nine standard deviations.
+    CHECK(tree.bounds().high[0] <= 0.71f);
+    CHECK(tree.bounds().low[0] >= -0.71f);
 }
 
 TEST_CASE("point tree: says which point is not finite") {

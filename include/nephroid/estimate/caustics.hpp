@@ -94,7 +94,8 @@ template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
             detail::check(splatter.policies().order, "nephroid::splat_caustics");
             const auto pilot = detail::trace_pilot(scene, light, pass, splatter.policies().order, sequence, executor);
             const auto footprints =
-                detail::footprints_from(pilot, pass, splatter.policies(), Sequence::stratified, executor);
+                detail::footprints_from(pilot, pass, splatter.policies(), double(splatter.map().diagonal()),
+                                        Sequence::stratified, executor);
             return detail::splat_in_batches(
                 splatter, pass,
                 [&](std::uint64_t i, Statistics& account) {

@@ -34,7 +34,8 @@ struct NearestPhotonsOptions {
 /// const float e = estimate(position, normal);
 /// ```
 ///
-/// Calls from several threads at once are fine; each thread keeps room for k neighbours.
+/// Calls from several threads at once are fine; each thread keeps room for k neighbours. A response must therefore not
+/// ask for another estimate of nearest photons itself.
 template <Vector3 V, Flux F, class K = BiweightKernel>
     requires Kernel<K, scalar_t<V>>
 class NearestPhotons {

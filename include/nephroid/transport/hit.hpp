@@ -29,7 +29,9 @@ struct SurfaceHit {
     V shading_normal;           ///< unit, on the geometric normal's side; reflection and refraction use this one
     C curvature;                ///< dn = curvature(dx), for the shading normal as given (the walk flips both)
     scalar_t<V> position_error; ///< bound on the distance from `position` to the surface, world units, >= 0
-    std::size_t surface = 0;    ///< whatever the scene wants to know it by: material, primitive
+    std::size_t surface = 0;    ///< the smooth surface that was hit: an object, not its material or one of
+                                ///< its triangles. Photons that met the same ones are taken for neighbours
+                                ///< (transport/trail.hpp)
 };
 
 template <class H, class V>

@@ -26,12 +26,17 @@ public:
         if constexpr (requires {
                           { hit.surface } -> std::convertible_to<std::uint64_t>;
                       })
-            add(static_cast<std::uint32_t>(hit.surface));
+            add(std::uint64_t(hit.surface));
     }
 
     [[nodiscard]] std::uint32_t value() const { return hash_; }
 
 private:
+    void add(std::uint64_t number) {
+        add(static_cast<std::uint32_t>(number));
+        add(static_cast<std::uint32_t>(number >> 32));
+    }
+
     // Fowler, Noll and Vo's hash, a word at a time, with the high bits folded in.
     void add(std::uint32_t word) {
         hash_ = (hash_ ^ word) * 16777619u;

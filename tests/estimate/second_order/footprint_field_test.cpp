@@ -306,7 +306,8 @@ TEST_CASE("footprint field: a hole is a border on all sides") {
     const auto hole = at(field, affine, middle, middle), right = at(field, affine, middle + 1 / columns, middle),
                above = at(field, affine, middle, middle + 2 / columns);
     REQUIRE((hole && right && above));
-    check_close(hole->shape, Symmetric2::isotropic(square(0.5 * cell_side)), 1e-6 * s2);
+    check_close(hole->shape, Symmetric2::isotropic(square((std::max)(SmoothingBounds{}.least, 0.5 * cell_side))),
+                1e-6 * s2);
     check_close(right->shape, {square(1.5 * cell_side), 0, s2}, 1e-6 * s2);
     check_close(above->shape, {s2, 0, square(2.5 * cell_side)}, 1e-6 * s2);
 }

@@ -337,9 +337,10 @@ private:
         if (inner(n, n) > 0) {
             cell.shape = bounded_along(cell.shape, n, reach);
         } else {
+            // Photons that were lost or went elsewhere amid the others, by chance perhaps: no reason to show photons.
+            const double most = options_.scale * square((std::max)(options_.bounds.least, reach));
             const Principal2 principal(cell.shape);
-            cell.shape = principal.with((std::min)(principal.larger, reach * reach),
-                                        (std::min)(principal.smaller, reach * reach));
+            cell.shape = principal.with((std::min)(principal.larger, most), (std::min)(principal.smaller, most));
         }
     }
 

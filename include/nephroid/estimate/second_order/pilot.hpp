@@ -67,17 +67,20 @@ template <class S, class L, class Sequence, class E>
 }
 
 /// What the pilot photons say of the footprints of the whole pass.
+///
+/// @param largest_reach  of a footprint, world units: the map's diagonal
 template <Vector3 V, Flux F, std::size_t N, class Policies, class E>
 [[nodiscard]] SecondOrderFootprints<V> footprints_from(const Pilot<TracedPhoton<V, F, N>>& pilot,
                                                        const PhotonPass& pass, const Policies& policies,
-                                                       bool stratified, E& executor) {
+                                                       double largest_reach, bool stratified, E& executor) {
     using Kernel = std::remove_cvref_t<decltype(policies.kernel)>;
     const typename SecondOrderFootprints<V>::Options options{.policy = policies.order,
                                                              .smoothing = pass.smoothing,
                                                              .stratified = stratified,
                                                              .second_moment = double(Kernel::second_moment),
                                                              .photons =
-                                                                 double(pass.total == 0 ? pass.count : pass.total)};
+                                                                 double(pass.total == 0 ? pass.count : pass.total),
+                                                             .largest_reach = largest_reach};
     announce(executor, Phase::fit);
     return SecondOrderFootprints<V>(std::span<const TracedPhoton<V, F, N>>(pilot.photons), options, executor);
 }

@@ -12,6 +12,8 @@
 
 #include "nephroid/estimate/second_order/footprint_field.hpp"
 
+#include <limits>
+
 namespace nephroid {
 
 /// The photons of a pass, turned to footprints.
@@ -26,6 +28,7 @@ public:
         bool stratified = false;
         double second_moment = 0.125; ///< of the kernel
         double photons = 0;           ///< emitted in all, N_e
+        double largest_reach = std::numeric_limits<double>::infinity(); ///< of a footprint that is not bounded
     };
 
     /// @param pilot  photons emitted with smoothing 1, in the order of their indices; those of each light are put together
@@ -99,7 +102,8 @@ public:
         // S = L Lᵀ, the new tangents are J L.
         const double l00 = std::sqrt(s.xx), l10 = s.xy / l00, l11 = std::sqrt(s.determinant()) / l00;
         const Space3 a = l00 * tangents[0] + l10 * tangents[1], b = l11 * tangents[1];
-        const double most = options_.policy.largest_shift * std::sqrt((std::max)(inner(a, a), inner(b, b)));
+        const double reach = (std::min)(std::sqrt((std::max)(inner(a, a), inner(b, b))), options_.largest_reach);
+        const double most = options_.policy.largest_shift * reach;
         const Space3 shift = bend + (drift.x * tangents[0] + drift.y * tangents[1]);
         const double distance = std::sqrt(inner(shift, shift));
         const double share = distance > most ? most / distance : 1;
