@@ -90,7 +90,8 @@ public:
                 });
                 Splats all;
                 for (const Splats& part : parts) {
-                    all.splats.insert(all.splats.end(), part.splats.begin(), part.splats.end());
+                    for (const Splat<V, F>& splat : part.splats) // g++ 12 warns of an insertion without reason
+                        all.splats.push_back(splat);
                     all.statistics += part.statistics;
                 }
                 return all;
