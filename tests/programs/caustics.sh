@@ -5,6 +5,9 @@
 set -eu
 caustics=$1/caustics
 [ -x "$caustics" ] || exit 77
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
 
 fail() {
     echo "FAILED: $*" >&2

@@ -5,13 +5,15 @@
 set -eu
 compare=$1/compare
 [ -x "$compare" ] || exit 77
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
 
 fail() {
     echo "FAILED: $*" >&2
     exit 1
 }
 
-rm -rf out report.html
 "$compare" wave-prefocal --photons 2000,1000 --size 64 --methods splat,nearest --threads 2 --repeats 2 --output out \
     --html report.html >out.txt 2>errors.txt || fail "the small comparison: $(cat errors.txt)"
 [ ! -s errors.txt ] || fail "words on stderr: $(cat errors.txt)"

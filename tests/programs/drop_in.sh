@@ -9,6 +9,9 @@ set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 programs=$1
 [ -x "$programs/drop_in_virtual_shapes" ] && [ -x "$programs/caustics" ] || exit 77
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
 size=256
 
 fail() {

@@ -5,6 +5,9 @@
 set -eu
 tracer=$1/reference_path_tracer
 [ -x "$tracer" ] || exit 77
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
 
 fail() {
     echo "FAILED: $*" >&2

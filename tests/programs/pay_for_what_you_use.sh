@@ -9,6 +9,9 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 cxx=${CXX:-g++}
 command -v valgrind >/dev/null && command -v "$cxx" >/dev/null && command -v nm >/dev/null || exit 77
 [ -e "/usr/include/glm/vec3.hpp" ] || [ -n "${CPATH:-}" ] || exit 77
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
 flags="-std=c++20 -DNDEBUG -I$root/include"
 
 fail() {

@@ -5,13 +5,15 @@
 set -eu
 relaxation=$1/relaxation
 [ -x "$relaxation" ] || exit 77
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cd "$scratch"
 
 fail() {
     echo "FAILED: $*" >&2
     exit 1
 }
 
-rm -rf uniform pattern guide wave ring t1 t3
 quick="--photons 3000 --size 64 --neighbours 20,50 --sweep 20,50 --iterations 5"
 
 # shellcheck disable=SC2086 # a list of words
