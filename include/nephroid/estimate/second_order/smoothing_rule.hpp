@@ -46,8 +46,8 @@ private:
 
 /// Q: how much the map bends, by direction, per u0².
 ///
-/// Q = (J⁻¹H)ᵀ(J⁻¹H) + 0.3 (the square root of the same of T, by its trace) + (r/2 + 5/(π N)) 1, r the roughness, the first two with a trace of
-/// at most 1 and 0.3: what bends by more within one photon's own share is not resolved anyway.
+/// Q = (J⁻¹H)ᵀ(J⁻¹H) + 0.3 (the square root of the same of T, by its trace) + (r/2 + 5/(π N)) 1, r the roughness, the
+/// first two with a trace of at most 1 and 0.3: what bends by more within one photon's own share is not resolved anyway.
 ///
 /// @param photons  emitted into this domain, N: no footprint should be of the domain's own size
 /// @param share    of them that took this path (PhotonDensity): each stands for so much more of the domain
