@@ -78,8 +78,10 @@ template <class MakeEstimate>
 
 template <class K>
 [[nodiscard]] Estimate nearest(const Bench& bench, const Photons& photons, double count, Source source, bool checked) {
+    // Checking would follow what a pixel averages: nothing finer than the pixel, as the kernel sees it.
     const NearestPhotonsOptions options{.count = static_cast<std::size_t>(std::lround(count)),
-                                        .differential_checking = checked};
+                                        .differential_checking = checked,
+                                        .checking = {.resolution = pixel_filter_width<K> * bench.film().pixel()}};
     return gather(bench, photons, reach_of(bench, photons, count), source,
                   [&](const Map& map) { return NearestPhotons(map, options, K{}); });
 }
