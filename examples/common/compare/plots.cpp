@@ -121,11 +121,13 @@ struct Axes {
     for (const std::string& id : options.methods) {
         const Method& method = *find_method(id);
         const Trial& trial = *trials_of(trials, id, sequence).front();
-        const double best = trial.by(Measure::relative).bandwidth;
+        const Best& best = trial.by(Measure::relative);
         Line line{&method,
-                  id + (method.symbol.empty() ? std::string() : std::string(", ") + bandwidth_text(method, best)), ""};
-        for (const auto& [bandwidth, errors] : trial.sweep)
-            line.data += row({bandwidth / best, cost_of(errors, measure)});
+                  id + (method.symbol.empty() ? std::string()
+                                              : std::string(", ") + bandwidth_text(*best.method, best.bandwidth)),
+                  ""};
+        for (const auto& [bandwidth, errors] : std::ranges::find(trial.sweeps, best.method, &Sweep::method)->errors)
+            line.data += row({bandwidth / best.bandwidth, cost_of(errors, measure)});
         lines.push_back(std::move(line));
     }
     return script(
