@@ -99,7 +99,7 @@ public:
             const T weight = kernel_(is_on_rim ? inside : T(n.distance2 * scale)) * scale;
             detail::receive(is_on_rim ? rim : sum, *map_, n.slot, weight, response);
         }
-        return on_rim > 1 ? F(sum + rim * T(T(on_rim - 1) / T(on_rim))) : sum;
+        return on_rim > 1 ? F(sum + rim * T(1 - 1 / double(on_rim))) : sum;
     }
 
 private:
