@@ -2,7 +2,6 @@
 // Second-order splatting as a whole, from the lamp to the picture, and what first-order splatting keeps beside it.
 #include "nephroid/estimate/second_order/pilot.hpp"
 
-#include "support/dual.hpp"
 #include "support/first_order.hpp"
 #include "support/foreign_vectors.hpp"
 #include "support/glass_ball.hpp"
@@ -11,6 +10,7 @@
 #include "nephroid/emission/sequence/random.hpp"
 #include "nephroid/emission/standard_lights.hpp"
 #include "nephroid/estimate/caustics.hpp"
+#include "nephroid/vector/dual.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,7 +23,6 @@
 
 using namespace nephroid;
 using tests::check_balance;
-using tests::Dual;
 using tests::FirstOrderPolicies;
 using tests::GlassBall;
 using tests::Sheet;
@@ -378,7 +377,7 @@ TEST_CASE("second order: dual numbers bring the derivative of what a straight ma
         return render(Water{depth}, light, {.count = 500, .smoothing = 5}).irradiance;
     };
     constexpr double h = 1e-6;
-    const auto here = at_height(Dual(1, 1));
+    const auto here = at_height(Dual<double>::parameter(1));
     const auto above = at_height(1 + h), below = at_height(1 - h);
     double furthest = 0, largest = 0;
     for (std::size_t i = 0; i < here.size(); ++i) {
