@@ -5,6 +5,7 @@
 #include "nephroid/emission/sequence/halton.hpp"
 #include "nephroid/emission/sequence/sequence.hpp"
 #include "nephroid/emission/without_tangents.hpp"
+#include "nephroid/estimate/cross_validation.hpp"
 #include "nephroid/estimate/photon_pass.hpp"
 #include "nephroid/estimate/photon_splatter.hpp"
 #include "nephroid/estimate/second_order/pilot.hpp"
@@ -82,7 +83,8 @@ inline constexpr bool is_second_order = requires(const Policies policies) {
 /// @return  what became of the flux, and counts
 /// Throws std::invalid_argument for zero photons, a smoothing that is not positive, and bounds of `SecondOrder` that
 /// cannot be.
-/// Memory: the splatter's sums, one batch, and the pilot photons of second-order splatting, whatever the number of photons.
+/// Memory: the splatter's sums, one batch, and the pilot photons of second-order splatting, whatever the number of
+/// photons; while a smoothing is chosen for lights without cells (cross_validation.hpp), the sums twice.
 template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
           detail::MustBeSequence Sequence = HaltonSequence, class E = SerialExecutor>
     requires detail::MustBeScene<S, V, Sampler<Sequence>> && detail::MustEmit<L, V, F> && ExecutorArgument<E>
@@ -93,9 +95,11 @@ template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
         if constexpr (detail::is_second_order<Policies, L>) {
             detail::check(splatter.policies().order, "nephroid::splat_caustics");
             const auto pilot = detail::trace_pilot(scene, light, pass, splatter.policies().order, sequence, executor);
-            const auto footprints =
-                detail::footprints_from(pilot, pass, splatter.policies(), double(splatter.map().diagonal()),
-                                        Sequence::stratified, executor);
+            auto footprints = detail::footprints_from(pilot, pass, splatter.policies(), double(splatter.map().diagonal()),
+                                                      Sequence::stratified, executor);
+            if (!pass.smoothing)
+                footprints.smooth_others(
+                    detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
             return detail::splat_in_batches(
                 splatter, pass,
                 [&](std::uint64_t i, Statistics& account) {

@@ -17,6 +17,11 @@ namespace nephroid {
 /// irradiance, which the caller multiplies with throughput · albedo / π.
 struct Irradiance {};
 
+/// All leaves of the map's tree take photons.
+struct EveryLeaf {
+    [[nodiscard]] constexpr bool operator()(std::uint32_t) const { return true; }
+};
+
 /// Sums up photons at the vertices of an eye path map [Frisvad et al. 2014, eq. 10].
 ///
 /// @tparam V         vector
@@ -50,8 +55,11 @@ public:
     class Chunk {
     public:
         /// Splats a deposit; its flux is booked in the account under what became of it.
-        template <std::size_t N>
-        void add(const PhotonSplatter& splatter, const Deposit<V, F, N>& deposit, Statistics& account) {
+        ///
+        /// @param takes  takes(leaf) -> whether that leaf of the map's tree is to get its part: all do unless told
+        template <std::size_t N, class Takes = EveryLeaf>
+        void add(const PhotonSplatter& splatter, const Deposit<V, F, N>& deposit, Statistics& account,
+                 const Takes& takes = {}) {
             const auto outcome = make_splat(deposit, *splatter.map_, splatter.policies_);
             account.bounded_footprints += outcome.bounded;
             Fate fate = outcome.fate;
@@ -59,7 +67,7 @@ public:
                 const std::size_t before = leaves_.size();
                 const auto number = std::uint32_t(splats_.size());
                 splatter.map_->tree().visit_leaves(outcome.splat->box, [&](std::uint32_t leaf) {
-                    if (splatter.facing(leaf, *outcome.splat) < 0)
+                    if (!takes(leaf) || splatter.facing(leaf, *outcome.splat) < 0)
                         return;
                     leaves_.push_back(leaf);
                     numbers_.push_back(number);
@@ -110,6 +118,12 @@ public:
         for (const TreeLeaf& leaf : map_->tree().leaves())
             for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
                 sink(std::size_t(map_->tree().index(slot)), sums_[slot]);
+    }
+
+    /// The sums at the vertices of one leaf of the map's tree, by slot.
+    [[nodiscard]] std::span<const F> sums(std::uint32_t leaf) const {
+        const TreeLeaf& range = map_->tree().leaves()[leaf];
+        return {sums_.data() + range.first, range.size};
     }
 
 private:

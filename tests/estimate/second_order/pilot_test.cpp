@@ -187,7 +187,7 @@ TEST_CASE_TEMPLATE("first order: gives the bits that photons splatted one by one
 // Four numbers make a photon of an area light: it is splatted as to first order. Twice eight is exact in binary.
 TEST_CASE_TEMPLATE("second order: an area light's photons are splatted as they are", T, float, double) {
     using V = Vec<T>;
-    const PhotonPass pass{.count = 2000};
+    const PhotonPass pass{.count = 2000, .smoothing = 8};
     const auto second = render(ball<V>(), disk<V>(), pass),
                first = render<FirstOrderPolicies>(ball<V>(), disk<V>(), pass);
     CHECK(second.irradiance == first.irradiance);

@@ -4,7 +4,8 @@
 /// `PathFit` finds them from neighbouring photons and asks nothing of the renderer. Where the renderer's scene is a
 /// template over its scalar they can be had exactly instead, to check the fit, or for photons without neighbours: the
 /// photon's own walk on numbers that know their derivatives by where the photon was emitted. Tangents are first
-/// derivatives, so their derivatives are the second ones.
+/// derivatives, so their derivatives are the second ones. Splatting does not ask for them: in place of the fitted ones
+/// they changed the error of a picture by a few per cent at best, at several times the tracing.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"

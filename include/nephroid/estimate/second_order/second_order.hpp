@@ -7,7 +7,7 @@
 /// So D = m₂/2 (S_ab F_ab + (∂_a S_ab) F_b) leaves a bias of fourth order. It costs nothing per pixel.
 ///
 /// For two emission coordinates (point, spot and directional lights) this is exact; an area light draws four numbers, and
-/// its photons are splatted as without it.
+/// its photons are splatted as without it, with one smoothing for all (cross_validation.hpp).
 #pragma once
 
 #include "nephroid/estimate/second_order/footprint_field.hpp"
@@ -46,7 +46,7 @@ public:
         std::vector<OfOneLight> by_light; // sorted by light
         for (std::size_t i = 0; i < pilot.size(); ++i) {
             const EmissionSample& sample = pilot[i].sample;
-            if (sample.dimensions != 2)
+            if (!has_cells(sample))
                 continue;
             auto found = std::lower_bound(by_light.begin(), by_light.end(), sample.light,
                                           [](const OfOneLight& a, std::uint32_t light) { return a.light < light; });
@@ -68,6 +68,12 @@ public:
         }
     }
 
+    /// Whether a light's samples say which of its photons are neighbours.
+    [[nodiscard]] static bool has_cells(const EmissionSample& sample) { return sample.dimensions == 2; }
+
+    /// What photons get that have no cells, where no smoothing is given; `default_smoothing` unless called.
+    void smooth_others(double smoothing) { others_ = smoothing; }
+
     /// Gives a deposit its footprint and its place.
     ///
     /// @param photon  emitted with smoothing 1; its deposit must not be empty
@@ -81,7 +87,7 @@ public:
                                : std::nullopt;
         const auto tangents = unit_tangents(deposit);
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
-            const double fallback = photon.sample.dimensions == 2 ? options_.policy.bounds.least : default_smoothing;
+            const double fallback = has_cells(photon.sample) ? options_.policy.bounds.least : others_;
             scale(deposit, T(options_.smoothing.value_or(fallback)));
             return false;
         }
@@ -148,6 +154,7 @@ private:
     };
 
     Options options_;
+    double others_ = default_smoothing;
     std::vector<LightField> fields_; // sorted by light
 };
 
