@@ -8,6 +8,7 @@
 #include "common/stopwatch.hpp"
 
 #include "nephroid/estimate/caustics.hpp"
+#include "nephroid/estimate/cross_validation.hpp"
 
 #include <stdexcept>
 #include <variant>
@@ -63,7 +64,7 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
             report.seconds.pilot += stopwatch.lap();
 
             Progress progress(emit);
-            const PhotonPass pass{.count = emit,
+            PhotonPass pass{.count = emit,
                                   .smoothing = options.smoothing,
                                   .limits = limits,
                                   .progress = [&](std::uint64_t done) {
@@ -73,6 +74,9 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
             with_policies(options, kernel, repeats, [&](const auto& policies) {
                 TimingExecutor timing(threads);
                 PhotonSplatter<V, F, std::remove_cvref_t<decltype(policies)>> splatter(map, policies);
+                if (options.cross_validated)
+                    pass.smoothing = cross_validated_smoothing(scene, light, splatter, pass, sequence, timing);
+                report.smoothing = options.first_order ? pass.smoothing.value_or(default_smoothing) : pass.smoothing;
                 report.statistics = splat_caustics(scene, light, splatter, pass, sequence, timing);
                 report.seconds.trace += timing.trace_seconds();
                 report.seconds.fit += timing.fit_seconds();

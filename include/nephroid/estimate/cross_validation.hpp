@@ -224,9 +224,13 @@ template <class Splatter, class Photon, class E>
 /// @return  2.5 to 40 for as many photons as were compared, more for a longer pass; 8 where fewer than 64 of them land.
 ///          The same for any number of threads, bit for bit
 /// Throws std::invalid_argument for zero photons.
+///
+/// A vertex is taken to show what is estimated there. Where a renderer adds several up to one pixel, each with a part of
+/// the light (ghosts around a floor that repeats), the borders between the parts are taken for edges, and s is too small.
+///
 /// Cost: tracing those photons, and splatting them onto some 32,000 of the vertices with smoothings of 2.5 up to twice
-/// the one chosen: together as long as splatting them onto all of a picture of 512 x 512 once, or less. Memory: the
-/// photons traced, and the splatter's sums once more.
+/// the one chosen: measured as one to four passes of 20,000 photons onto 512 x 512 vertices, and less than one of
+/// 160,000. Memory: the photons traced, and the splatter's sums once more.
 template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
           detail::MustBeSequence Sequence = HaltonSequence, class E = SerialExecutor>
     requires detail::MustBeScene<S, V, Sampler<Sequence>> && Light<L> && detail::EmitsFor<L, V, F> &&
