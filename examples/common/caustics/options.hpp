@@ -22,6 +22,7 @@ struct Options {
     std::optional<std::uint64_t> emit;                ///< photons to emit, instead
     std::optional<double> smoothing;                  ///< s; nothing: chosen for each photon
     bool first_order = false;                         ///< photon differential splatting as published
+    bool curved = false;                              ///< footprints in pieces that bend as the light does
     std::size_t width = 512, height = 512;            ///< pixels
     bool height_given = false;                        ///< else a file's camera chooses it
     unsigned samples = 1;                             ///< eye paths per pixel

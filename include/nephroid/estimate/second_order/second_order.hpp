@@ -78,15 +78,19 @@ public:
     /// Gives a deposit its footprint and its place.
     ///
     /// @param photon  emitted with smoothing 1; its deposit must not be empty
+    /// @param second  if given, gets the map's second derivatives by the halves of the new tangents, along the surface; as
+    ///                much shortened as the shift is, and 0 where they are not known
     /// @return  whether the shift was shortened
     template <Flux F, std::size_t N>
-    bool apply(TracedPhoton<V, F, N>& photon) const {
+    bool apply(TracedPhoton<V, F, N>& photon, std::array<Space3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
         const std::optional<FieldSample> found = photon.frame.is_regular() ? field_at(photon) : std::nullopt;
         const auto tangents = unit_tangents(deposit);
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
             const double fallback = photon.sample.dimensions == 2 ? options_.policy.bounds.least : default_smoothing;
             scale(deposit, T(options_.smoothing.value_or(fallback)));
+            if (second != nullptr)
+                *second = {};
             return false;
         }
 
@@ -112,6 +116,11 @@ public:
         const double distance = std::sqrt(inner(shift, shift));
         const double share = distance > most ? most / distance : 1;
         bounded = bounded || distance > most;
+        if (second != nullptr) {
+            *second = turned(found->second, {{l00, l10}, {0, l11}});
+            for (Space3& h : *second)
+                h = along_surface(share * h, deposit.normal);
+        }
 
         // In the renderer's own scalar again, which may know derivatives: S and H are constants to those.
         const V d_u = deposit.d_position[0], d_v = deposit.d_position[1];
