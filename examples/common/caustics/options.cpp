@@ -34,6 +34,8 @@ void check(const Options& options) {
         throw UsageError("--smoothing: " + std::to_string(*options.smoothing) + " is not a positive number");
     if (!options.first_order && options.cross_validated)
         throw UsageError("--smoothing: cross-validated chooses one s for all photons and comes with --first-order");
+    if (options.first_order && options.curved)
+        throw UsageError("--curved: bends what --first-order keeps straight; leave one of them out");
     if (!options.first_order && options.kernel != KernelKind::biweight)
         throw UsageError("--kernel: other kernels than the biweight come with --first-order here");
     if (options.samples < 1 || options.samples > 4096)
@@ -61,6 +63,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
                    "--first-order cross-validated: the s at which parts of the photons agree best");
     app.add_flag("--first-order", options.first_order,
                  "Splat photons where they land, as Frisvad et al. 2014 do; else where their bias cancels");
+    app.add_flag("--curved", options.curved, "Splat in pieces where the light bends: for few photons on sharp folds");
     app.add_option("--size", size, "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
     app.add_option("--samples", options.samples, "Eye paths per pixel [1]");
     std::string kernel = "biweight", sequence = "halton", filter = "on", fresnel = "off", reflection = "any";

@@ -23,6 +23,7 @@ struct Options {
     std::optional<double> smoothing;                  ///< s; nothing: chosen for each photon
     bool cross_validated = false;                     ///< s is chosen for all photons together, to first order
     bool first_order = false;                         ///< photon differential splatting as published
+    bool curved = false;                              ///< footprints in pieces that bend as the light does
     std::size_t width = 512, height = 512;            ///< pixels
     bool height_given = false;                        ///< else a file's camera chooses it
     unsigned samples = 1;                             ///< eye paths per pixel

@@ -41,8 +41,14 @@ void with_policies(const Options& options, const K& kernel, bool repeats, Use&& 
     if (options.first_order)
         use(SplatPolicies<K, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, FirstOrder>{
             .kernel = kernel, .filter = filter});
-    else if constexpr (std::same_as<K, BiweightKernel>) // for the others the options insist on first order
-        use(SplatPolicies<K>{.kernel = kernel, .filter = filter, .order = {.domain_repeats = repeats}});
+    else if constexpr (std::same_as<K, BiweightKernel>) { // for the others the options insist on first order
+        const SecondOrder order{.domain_repeats = repeats};
+        if (options.curved)
+            use(SplatPolicies<K, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint,
+                              CurvedFootprints>{.kernel = kernel, .filter = filter, .order = {order}});
+        else
+            use(SplatPolicies<K>{.kernel = kernel, .filter = filter, .order = order});
+    }
 }
 
 /// Traces and splats the photons that the options ask for and calls sink(vertex, irradiance) for every vertex.

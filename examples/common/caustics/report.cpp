@@ -46,7 +46,7 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
 void print_table(std::ostream& out, const Options& options, const Report& report) {
     const Statistics& statistics = report.statistics;
     out << "caustics " << options.scene << (report.smoothing ? text(", s = %g, ", *report.smoothing) : ", ")
-        << (options.first_order ? "first order, " : "") << name_of(options.sequence) << ", "
+        << (options.first_order ? "first order, " : options.curved ? "curved, " : "") << name_of(options.sequence) << ", "
         << name_of(options.kernel) << (options.pixel_filter ? "" : ", no pixel filter")
         << text(", %zu x %zu, %u thread%s\n", options.width, options.height, report.threads,
                 report.threads == 1 ? "" : "s");
