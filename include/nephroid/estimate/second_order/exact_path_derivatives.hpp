@@ -15,8 +15,9 @@
 #include "nephroid/transport/walk.hpp"
 #include "nephroid/vector/dual.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
