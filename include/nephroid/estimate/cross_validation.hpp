@@ -20,6 +20,7 @@
 #include "nephroid/estimate/photon_splatter.hpp"
 #include "nephroid/estimate/second_order/pilot.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>

@@ -4,8 +4,10 @@
 /// `PathFit` finds them from neighbouring photons and asks nothing of the renderer. Where the renderer's scene is a
 /// template over its scalar they can be had exactly instead, to check the fit, or for photons without neighbours: the
 /// photon's own walk on numbers that know their derivatives by where the photon was emitted. Tangents are first
-/// derivatives, so their derivatives are the second ones. Splatting does not ask for them: in place of the fitted ones
-/// they changed the error of a picture by a few per cent at best, at several times the tracing.
+/// derivatives, so their derivatives are the second ones.
+///
+/// Splatting does not ask for them. In the shift in place of the fitted ones they changed the error of waves and of the
+/// ring by less than 8% from 10,000 photons on, at several times the tracing; at 2,500 it was from 18% less to 38% more.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"
@@ -13,8 +15,9 @@
 #include "nephroid/transport/walk.hpp"
 #include "nephroid/vector/dual.hpp"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
