@@ -34,7 +34,7 @@ struct SecondOrder {
                                  ///< opposite borders of the patch are neighbours
 };
 
-/// s where none is given and the photons do not say: for area lights, and of first order.
+/// s where none is given: of first order, and of area lights' photons about which their neighbours do not say.
 inline constexpr double default_smoothing = 8;
 
 namespace detail {
