@@ -64,8 +64,8 @@ Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const Ad
 
 /// Adds a photon where its neighbours say, in the footprint or the pieces that they say.
 template <class Footprints, class Photon, class Splatter>
-void add_placed(const Footprints& footprints, Photon& photon, const Splatter& splatter,
-                typename Splatter::Chunk& chunk, Statistics& account) {
+void add_placed(const Footprints& footprints, Photon& photon, const Splatter& splatter, typename Splatter::Chunk& chunk,
+                Statistics& account) {
     const auto& policies = splatter.policies();
     if constexpr (std::derived_from<std::remove_cvref_t<decltype(policies.order)>, CurvedFootprints>) {
         std::array<Space3, 3> second;

@@ -4,7 +4,9 @@
 
 #include "nephroid/estimate/second_order/area_cells.hpp"
 
+#include <cmath>
 #include <optional>
+#include <span>
 
 namespace nephroid {
 

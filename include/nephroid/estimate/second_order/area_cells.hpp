@@ -5,8 +5,10 @@
 #include "nephroid/emission/emission_sample.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 

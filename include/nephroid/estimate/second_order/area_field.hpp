@@ -13,12 +13,12 @@
 ///
 ///     ∂_i ∫ w S_ab t_a^i t_b^j δ(x − F) d⁴u = ∫ ∇·(w S_ab t_b^j e_a) δ(x − F) d⁴u − (what is on the domain's borders),
 ///
-/// and D = m₂/2 · 1/w ∇·(w S_ab e_a t_b) leaves no bias of second order but that of the borders: with S alike
-/// everywhere, and e_a and w changing slowly, m₂/2 (S_ab (e_a·∇) t_b + (e_a·∇ S_ab) t_b), the same as in two dimensions. It
-/// does not matter that E is no longer 1/|det J|, nor what happens across the slice. It needs the change of the tangents
-/// along themselves only, e_a·∇ t_b, which neighbours tell: J(u) is fitted linearly in all four coordinates, and
-/// quadratically along the slice. Left out are the divergence of e_a, which is that of bases aligned with the light's normal
-/// (up to tan(α/2) per radian at an angle α from it), and the slope of w (cosines, losses).
+/// and D = m₂/2 · 1/w ∇·(w S_ab e_a t_b) leaves no bias of second order but that of the borders. Where e_a and w change
+/// slowly that is m₂/2 (S_ab (e_a·∇) t_b + (e_a·∇ S_ab) t_b), the same as in two dimensions: it does not matter that E is no
+/// longer 1/|det J|, nor what happens across the slice. It needs the change of the tangents along themselves only,
+/// e_a·∇ t_b, which neighbours tell: J(u) is fitted linearly in all four coordinates, and quadratically along the slice.
+/// Left out are the slope of w (cosines, losses) and the divergence of e_a: bases aligned with the light's normal turn by
+/// up to tan(α/2) per radian at an angle α from it, and vectors change their length with the density of directions.
 ///
 /// Borders count for less than in two dimensions, since light from all places of the lamp falls on either side, and
 /// short footprints beside them show photons sooner.
@@ -27,6 +27,14 @@
 #include "nephroid/estimate/second_order/area_border.hpp"
 #include "nephroid/estimate/second_order/area_fit.hpp"
 #include "nephroid/estimate/second_order/footprint_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
 
 namespace nephroid {
 

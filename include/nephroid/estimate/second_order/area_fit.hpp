@@ -5,6 +5,10 @@
 #include "nephroid/estimate/second_order/area_cells.hpp"
 #include "nephroid/estimate/second_order/emission_frame.hpp"
 #include "nephroid/estimate/second_order/path_derivatives.hpp"
+#include "nephroid/vector/least_squares.hpp"
+
+#include <array>
+#include <vector>
 
 namespace nephroid {
 

@@ -34,7 +34,7 @@ struct SecondOrder {
                                  ///< opposite borders of the patch are neighbours
 };
 
-/// s where none is given and the photons do not say: too few of them, and of first order.
+/// s where none is given: of first order, and of photons about which neither their neighbours say nor the others together.
 inline constexpr double default_smoothing = 8;
 
 namespace detail {
