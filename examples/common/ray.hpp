@@ -17,14 +17,14 @@ namespace nephroid::examples {
 template <class T>
 using Vec3 = glm::vec<3, T>;
 
-/// Shapes intersect in double, whatever the scene's scalar: a float ray is exact there, so that the side of a surface
-/// that a ray starts on is never lost to rounding.
-using wide = double;
-using WideVec3 = Vec3<wide>;
+/// Shapes intersect in double also where the scene's scalar is float: a float ray is exact there, so that the side of a
+/// surface that a ray starts on is never lost to rounding. A scalar that is a class (a dual number) is wide enough.
+template <class T>
+using wide_t = std::conditional_t<std::is_same_v<T, float>, double, T>;
 
 template <class T>
-[[nodiscard]] WideVec3 widen(const Vec3<T>& v) {
-    return WideVec3(v);
+[[nodiscard]] Vec3<wide_t<T>> widen(const Vec3<T>& v) {
+    return Vec3<wide_t<T>>(v);
 }
 
 /// Hits count between t_min and t_max, in units of the direction's length.
@@ -77,9 +77,10 @@ struct Box {
 };
 
 /// A hit as an intersection routine finds it: enough to rank it, and to fill in the rest if it is the nearest one.
+template <class T>
 struct Candidate {
-    wide distance;
-    wide u = 0, v = 0;           ///< barycentric coordinates, for triangles
+    wide_t<T> distance;
+    wide_t<T> u = 0, v = 0;      ///< barycentric coordinates, for triangles
     std::uint32_t primitive = 0; ///< which one of the shape's
 };
 
@@ -93,14 +94,15 @@ using Hit = SurfaceHit<Vec3<T>, SurfaceCurvature<T>>;
 ///
 /// @param scale  the largest coordinates that took part, relevant where T is as wide as the arithmetic
 template <class T>
-[[nodiscard]] T position_error(const Vec3<T>& position, wide scale) {
+[[nodiscard]] T position_error(const Vec3<T>& position, const std::type_identity_t<wide_t<T>>& scale) {
     const T rounding = T(4) * std::numeric_limits<T>::epsilon() * (abs(position.x) + abs(position.y) + abs(position.z));
-    return rounding + T(4 * std::numeric_limits<wide>::epsilon() * scale);
+    return rounding + T(4 * std::numeric_limits<wide_t<T>>::epsilon() * scale);
 }
 
 /// The sum of a vector's components without sign: a cheap bound on its length.
 template <class T>
-[[nodiscard]] wide magnitude(const Vec3<T>& v) {
+[[nodiscard]] wide_t<T> magnitude(const Vec3<T>& v) {
+    using wide = wide_t<T>;
     return abs(wide(v.x)) + abs(wide(v.y)) + abs(wide(v.z));
 }
 
@@ -108,15 +110,16 @@ template <class T>
 ///
 /// @param scale  of the shape, see `position_error`
 template <class T>
-[[nodiscard]] Hit<T> make_hit(wide distance, const WideVec3& position, const WideVec3& normal,
-                              const SurfaceCurvature<T>& curvature, wide scale) {
+[[nodiscard]] Hit<T> make_hit(const wide_t<T>& distance, const Vec3<wide_t<T>>& position, const Vec3<wide_t<T>>& normal,
+                              const SurfaceCurvature<T>& curvature, const wide_t<T>& scale) {
     const Vec3<T> p(position), n(normal);
     return {T(distance), p, n, n, curvature, position_error(p, scale)};
 }
 
 /// The shape operator with these columns, rounded to T.
 template <class T>
-[[nodiscard]] ShapeOperator<Vec3<T>> make_shape_operator(const WideVec3& x, const WideVec3& y, const WideVec3& z) {
+[[nodiscard]] ShapeOperator<Vec3<T>> make_shape_operator(const Vec3<wide_t<T>>& x, const Vec3<wide_t<T>>& y,
+                                                         const Vec3<wide_t<T>>& z) {
     return {Vec3<T>(x), Vec3<T>(y), Vec3<T>(z)};
 }
 

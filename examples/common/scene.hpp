@@ -101,9 +101,9 @@ public:
     [[nodiscard]] std::optional<Hit<T>> intersect(const Vec3<T>& origin, const Vec3<T>& direction, T t_min,
                                                   T t_max) const {
         const Ray<T> ray{origin, direction, t_min, t_max};
-        std::optional<Candidate> best;
+        std::optional<Candidate<T>> best;
         std::size_t best_part = 0;
-        wide nearest(t_max);
+        wide_t<T> nearest(t_max);
         const auto try_part = [&](std::size_t i) {
             if (auto found =
                     std::visit([&](const auto& shape) { return shape.nearest(ray, nearest); }, parts_[i].shape)) {
@@ -141,7 +141,7 @@ public:
                     if constexpr (requires { shape.occludes(ray); })
                         return shape.occludes(ray);
                     else
-                        return shape.nearest(ray, wide(t_max)).has_value();
+                        return shape.nearest(ray, wide_t<T>(t_max)).has_value();
                 },
                 parts_[i].shape);
         };

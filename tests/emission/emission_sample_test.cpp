@@ -54,17 +54,19 @@ template <class T, class L>
 
 } // namespace
 
-TEST_CASE("emission sample: the first two numbers are kept and all are counted") {
-    GivenSamples given({0.25, 0.5, 0.75, 0.125});
+TEST_CASE("emission sample: the first four numbers are kept and all are counted") {
+    GivenSamples given({0.25, 0.5, 0.75, 0.125, 0.625});
     RecordingSource<GivenSamples> recorder(given);
     CHECK(recorder.sample().dimensions == 0);
-    for (const double expected : {0.25, 0.5, 0.75, 0.125})
+    for (const double expected : {0.25, 0.5, 0.75, 0.125, 0.625})
         CHECK(recorder.next<double>() == expected);
     CHECK(recorder.sample().at[0] == 0.25);
     CHECK(recorder.sample().at[1] == 0.5);
-    CHECK(recorder.sample().dimensions == 4);
+    CHECK(recorder.sample().then[0] == 0.75);
+    CHECK(recorder.sample().then[1] == 0.125);
+    CHECK(recorder.sample().dimensions == 5);
     CHECK(recorder.sample().light == 0);
-    CHECK(given.drawn() == 4);
+    CHECK(given.drawn() == 5);
 }
 
 TEST_CASE("emission sample: a choice among lights does not count as a number of the light's own") {

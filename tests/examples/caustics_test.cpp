@@ -75,6 +75,7 @@ TEST_CASE("caustics: what cannot be done is refused with a line that names the o
     };
     CHECK(message({"ring", "--kernel", "cone"}).find("--first-order") != std::string::npos);
     CHECK(message({"ring", "--smoothing", "much"}).find("--smoothing") != std::string::npos);
+    CHECK(message({"ring", "--smoothing", "cross-validated"}).find("--first-order") != std::string::npos);
     CHECK(message({"ring", "--photons", "0"}).find("--photons") != std::string::npos);
     CHECK(message({"ring", "--photons", "-5"}).find("--photons") != std::string::npos);
     CHECK(message({"ring", "--photons", "many"}).find("'many'") != std::string::npos);

@@ -202,7 +202,7 @@ TEST_CASE_TEMPLATE("mesh: hits lie on their triangle within the stated error and
             direction = -direction;
         CHECK(!mesh.nearest({outside, direction}, infinity));
         if (dot(direction, n) > T(0.2))
-            CHECK(mesh.nearest({inside, -direction}, infinity).value_or(Candidate{0}).distance > 0.1);
+            CHECK(mesh.nearest({inside, -direction}, infinity).value_or(Candidate<T>{0}).distance > 0.1);
     }
 }
 

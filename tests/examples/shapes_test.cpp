@@ -137,7 +137,7 @@ TEST_CASE_TEMPLATE("cylinder: hits lie on it with its normal and curvature", T, 
 TEST_CASE_TEMPLATE("cylinder: a half one is hit within its heights and its angle alone", T, float, double) {
     const Cylinder<T> ring({.radius = 1, .height = T(0.5), .facing_x = 1, .least_cosine = 0});
     const auto distance = [&](const Ray<T>& ray) {
-        return ring.nearest(ray, infinity).value_or(Candidate{-1}).distance;
+        return ring.nearest(ray, infinity).value_or(Candidate<T>{-1}).distance;
     };
     CHECK(distance({{-3, 0, T(0.25)}, {1, 0, 0}}) == 4); // through the open side onto the inner one
     CHECK(distance({{3, 0, T(0.25)}, {-1, 0, 0}}) == 2); // the outer side

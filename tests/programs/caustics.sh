@@ -57,6 +57,8 @@ measure wave-prefocal 11 --view 0 1 0 1
 at_most "$(value m.json rel)" 0.027 "wave-prefocal as a view of the whole: rel"
 measure ring-zoom 5
 at_most "$(value m.json rel)" 0.16 "ring-zoom, s = 5: rel"
+measure ring-zoom cross-validated # chooses 5.0
+at_most "$(value m.json rel)" 0.16 "ring-zoom, cross-validated s: rel"
 measure ring-zoom 8 --photons 1280000
 at_most "$(value m.json rel)" 0.09 "ring-zoom, s = 8, 1,280,000 photons: rel"
 
@@ -108,6 +110,8 @@ refuses "photons" ring --photons 0
 refuses "photons" ring --photons 1.5
 refuses "smoothing" ring --smoothing -1
 refuses "smoothing" ring --smoothing nan
+refuses "first-order" ring --smoothing cross-validated
+refuses "tile" wave-focused --first-order --smoothing cross-validated
 refuses "size" ring --size 0
 refuses "kernel" ring --kernel box
 refuses "view" ring --view 1 0 0 1

@@ -25,8 +25,8 @@ using Case = BuiltinCase<float, float>;
 /// same for all but very smooth pictures.
 [[nodiscard]] double ghosts_of(const BuiltinFilm& film, const Options& options) {
     const double emitted = double(options.emit.value_or(options.photons));
-    const double margin = (std::max)(0.125, ghost_margin(film, options.smoothing.value_or(options.first_order ? default_smoothing
-                                                                                                    : SmoothingBounds{}.largest_radius), emitted));
+    const double largest = options.first_order ? default_smoothing : SmoothingBounds{}.largest_radius;
+    const double margin = (std::max)(0.125, ghost_margin(film, options.smoothing.value_or(largest), emitted));
     if (margin > 4)
         throw UsageError("--smoothing, --photons: footprints would reach over " + std::to_string(std::lround(margin)) +
                          " periods of the wave; use less smoothing or more photons");
@@ -49,6 +49,9 @@ Rendering render_builtin(const Options& options) {
         throw UsageError("--layer: a built-in case has caustics only");
     Stopwatch total, stopwatch;
     const Case builtin = builtin_case<float, float>(options.scene, options.fresnel).value();
+    if (options.cross_validated && builtin.periodic)
+        throw UsageError("--smoothing: cross-validated would take the border of the wave's tile, which is not to be seen, "
+                         "for an edge of its caustic; choose s by hand");
     const BuiltinFilm film = film_of(options, builtin.film);
     check(film);
     ThreadExecutor threads(options.threads);

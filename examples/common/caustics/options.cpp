@@ -25,13 +25,17 @@ const Names<bool> reflections = {{"one", true}, {"any", false}};
     char* end = nullptr;
     const double s = std::strtod(text.c_str(), &end);
     if (text.empty() || *end != '\0')
-        throw UsageError("--smoothing: '" + text + "' is neither auto nor a number");
+        throw UsageError("--smoothing: '" + text + "' is neither auto nor cross-validated nor a number");
     return s;
 }
 
 void check(const Options& options) {
     if (options.smoothing && (!std::isfinite(*options.smoothing) || !(*options.smoothing > 0)))
         throw UsageError("--smoothing: " + std::to_string(*options.smoothing) + " is not a positive number");
+    if (!options.first_order && options.cross_validated)
+        throw UsageError("--smoothing: cross-validated chooses one s for all photons and comes with --first-order");
+    if (options.first_order && options.curved)
+        throw UsageError("--curved: bends what --first-order keeps straight; leave one of them out");
     if (!options.first_order && options.kernel != KernelKind::biweight)
         throw UsageError("--kernel: other kernels than the biweight come with --first-order here");
     if (options.samples < 1 || options.samples > 4096)
@@ -55,9 +59,11 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     app.add_option("--emit", emit, "Photons to emit, instead of --photons");
     std::string smoothing = "auto";
     app.add_option("--smoothing", smoothing,
-                   "auto, or s: the footprints cover the light's domain s^2 times [auto; 8 with --first-order]");
+                   "auto, or s: the footprints cover the light's domain s^2 times [auto; 8 with --first-order], or with "
+                   "--first-order cross-validated: the s at which parts of the photons agree best");
     app.add_flag("--first-order", options.first_order,
                  "Splat photons where they land, as Frisvad et al. 2014 do; else where their bias cancels");
+    app.add_flag("--curved", options.curved, "Splat in pieces where the light bends: for few photons on sharp folds");
     app.add_option("--size", size, "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
     app.add_option("--samples", options.samples, "Eye paths per pixel [1]");
     std::string kernel = "biweight", sequence = "halton", filter = "on", fresnel = "off", reflection = "any";
@@ -84,7 +90,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     options.width = pixels.width;
     options.height = pixels.height;
     options.height_given = pixels.height_given;
-    if (smoothing != "auto")
+    options.cross_validated = smoothing == "cross-validated";
+    if (smoothing != "auto" && !options.cross_validated)
         options.smoothing = smoothing_in(smoothing);
     options.kernel = chosen("--kernel", kernel, kernels);
     options.sequence = chosen("--sequence", sequence, sequence_names());

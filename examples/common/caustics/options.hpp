@@ -21,7 +21,9 @@ struct Options {
     std::uint64_t photons = 20'000;                   ///< caustic photons wanted
     std::optional<std::uint64_t> emit;                ///< photons to emit, instead
     std::optional<double> smoothing;                  ///< s; nothing: chosen for each photon
+    bool cross_validated = false;                     ///< s is chosen for all photons together, to first order
     bool first_order = false;                         ///< photon differential splatting as published
+    bool curved = false;                              ///< footprints in pieces that bend as the light does
     std::size_t width = 512, height = 512;            ///< pixels
     bool height_given = false;                        ///< else a file's camera chooses it
     unsigned samples = 1;                             ///< eye paths per pixel

@@ -8,6 +8,7 @@
 #include "common/stopwatch.hpp"
 
 #include "nephroid/estimate/caustics.hpp"
+#include "nephroid/estimate/cross_validation.hpp"
 
 #include <stdexcept>
 #include <variant>
@@ -40,8 +41,14 @@ void with_policies(const Options& options, const K& kernel, bool repeats, Use&& 
     if (options.first_order)
         use(SplatPolicies<K, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, FirstOrder>{
             .kernel = kernel, .filter = filter});
-    else if constexpr (std::same_as<K, BiweightKernel>) // for the others the options insist on first order
-        use(SplatPolicies<K>{.kernel = kernel, .filter = filter, .order = {.domain_repeats = repeats}});
+    else if constexpr (std::same_as<K, BiweightKernel>) { // for the others the options insist on first order
+        const SecondOrder order{.domain_repeats = repeats};
+        if (options.curved)
+            use(SplatPolicies<K, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint,
+                              CurvedFootprints>{.kernel = kernel, .filter = filter, .order = {order}});
+        else
+            use(SplatPolicies<K>{.kernel = kernel, .filter = filter, .order = order});
+    }
 }
 
 /// Traces and splats the photons that the options ask for and calls sink(vertex, irradiance) for every vertex.
@@ -63,16 +70,19 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
             report.seconds.pilot += stopwatch.lap();
 
             Progress progress(emit);
-            const PhotonPass pass{.count = emit,
-                                  .smoothing = options.smoothing,
-                                  .limits = limits,
-                                  .progress = [&](std::uint64_t done) {
-                                      progress.show(done);
-                                      return true;
-                                  }};
+            PhotonPass pass{.count = emit,
+                            .smoothing = options.smoothing,
+                            .limits = limits,
+                            .progress = [&](std::uint64_t done) {
+                                progress.show(done);
+                                return true;
+                            }};
             with_policies(options, kernel, repeats, [&](const auto& policies) {
                 TimingExecutor timing(threads);
                 PhotonSplatter<V, F, std::remove_cvref_t<decltype(policies)>> splatter(map, policies);
+                if (options.cross_validated)
+                    pass.smoothing = cross_validated_smoothing(scene, light, splatter, pass, sequence, timing);
+                report.smoothing = options.first_order ? pass.smoothing.value_or(default_smoothing) : pass.smoothing;
                 report.statistics = splat_caustics(scene, light, splatter, pass, sequence, timing);
                 report.seconds.trace += timing.trace_seconds();
                 report.seconds.fit += timing.fit_seconds();

@@ -3,8 +3,6 @@
 
 #include "common/text.hpp"
 
-#include "nephroid/estimate/second_order/policy.hpp"
-
 #include <cmath>
 #include <ostream>
 #include <utility>
@@ -47,8 +45,8 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
 
 void print_table(std::ostream& out, const Options& options, const Report& report) {
     const Statistics& statistics = report.statistics;
-    out << "caustics " << options.scene << (options.smoothing ? text(", s = %g, ", *options.smoothing) : options.first_order ? text(", s = %g, ", default_smoothing) : ", ")
-        << (options.first_order ? "first order, " : "") << name_of(options.sequence) << ", "
+    out << "caustics " << options.scene << (report.smoothing ? text(", s = %g, ", *report.smoothing) : ", ")
+        << (options.first_order ? "first order, " : options.curved ? "curved, " : "") << name_of(options.sequence) << ", "
         << name_of(options.kernel) << (options.pixel_filter ? "" : ", no pixel filter")
         << text(", %zu x %zu, %u thread%s\n", options.width, options.height, report.threads,
                 report.threads == 1 ? "" : "s");
@@ -101,7 +99,7 @@ std::string json_text(const Options& options, const Report& report) {
     for (const auto& [name, value] : passes(report.seconds))
         seconds.push_back({name, json_number(value)});
     top = {{"scene", json_string(options.scene)},
-           {"smoothing", options.smoothing ? json_number(*options.smoothing) : json_string("auto")},
+           {"smoothing", report.smoothing ? json_number(*report.smoothing) : json_string("auto")},
            {"order", options.first_order ? "1" : "2"},
            {"sequence", json_string(name_of(options.sequence))},
            {"kernel", json_string(name_of(options.kernel))},

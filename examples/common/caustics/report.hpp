@@ -23,8 +23,9 @@ struct Report {
     Timings seconds;
     std::size_t eye_vertices = 0;
     unsigned threads = 1;
-    std::optional<Errors> errors;   ///< where the truth is known
-    std::vector<std::string> notes; ///< on what is shown otherwise than the scene says
+    std::optional<double> smoothing; ///< s of all photons; nothing: chosen for each
+    std::optional<Errors> errors;    ///< where the truth is known
+    std::vector<std::string> notes;  ///< on what is shown otherwise than the scene says
 };
 
 void print_table(std::ostream& out, const Options& options, const Report& report);

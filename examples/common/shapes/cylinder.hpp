@@ -12,6 +12,9 @@ namespace nephroid::examples {
 /// another one. Open at both ends. Its normal points outwards.
 template <class T>
 class Cylinder {
+    using wide = wide_t<T>;
+    using WideVec3 = Vec3<wide>;
+
 public:
     struct Options {
         Vec3<T> base{0};              ///< the axis runs upwards from here
@@ -28,7 +31,7 @@ public:
         return Box<T>{o_.base - Vec3<T>(r, r, 0), o_.base + Vec3<T>(r, r, o_.height)}.padded();
     }
 
-    [[nodiscard]] std::optional<Candidate> nearest(const Ray<T>& ray, wide t_max) const {
+    [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
         const WideVec3 o = widen(ray.origin) - widen(o_.base), d = widen(ray.direction);
         const wide dd = d.x * d.x + d.y * d.y;
         if (!(dd > 0))
@@ -39,13 +42,13 @@ public:
         if (!(half_chord2 >= 0))
             return std::nullopt;
         const wide half_chord = sqrt(half_chord2);
-        for (const wide t : {middle - half_chord, middle + half_chord})
+        for (const wide& t : {middle - half_chord, middle + half_chord})
             if (t > ray.t_min && t < t_max && is_part(o + t * d))
-                return Candidate{t};
+                return Candidate<T>{t};
         return std::nullopt;
     }
 
-    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate& candidate) const {
+    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate<T>& candidate) const {
         const WideVec3 p = widen(ray.origin) + candidate.distance * widen(ray.direction) - widen(o_.base);
         const WideVec3 n = normalize(WideVec3(p.x, p.y, 0));
         const WideVec3 on = widen(o_.base) + WideVec3(wide(o_.radius) * n.x, wide(o_.radius) * n.y, p.z);

@@ -15,9 +15,9 @@ namespace nephroid::examples {
 namespace detail {
 /// Where a ray crosses the plane through a point; the normal need not be unit.
 template <class T>
-[[nodiscard]] std::optional<wide> cross_plane(const Ray<T>& ray, const WideVec3& point, const WideVec3& normal,
-                                              wide t_max) {
-    const wide t = dot(point - widen(ray.origin), normal) / dot(widen(ray.direction), normal);
+[[nodiscard]] std::optional<wide_t<T>> cross_plane(const Ray<T>& ray, const Vec3<wide_t<T>>& point,
+                                                   const Vec3<wide_t<T>>& normal, const wide_t<T>& t_max) {
+    const wide_t<T> t = dot(point - widen(ray.origin), normal) / dot(widen(ray.direction), normal);
     if (t > ray.t_min && t < t_max)
         return t;
     return std::nullopt;
@@ -31,6 +31,9 @@ template <class T>
 /// then has to be looked for in both places.
 template <class T>
 class Floor {
+    using wide = wide_t<T>;
+    using WideVec3 = Vec3<wide>;
+
 public:
     explicit Floor(T height, T period = 0) : height_(height), period_(period) {}
 
@@ -39,12 +42,12 @@ public:
         return {{-everywhere, -everywhere, height_}, {everywhere, everywhere, height_}};
     }
 
-    [[nodiscard]] std::optional<Candidate> nearest(const Ray<T>& ray, wide t_max) const {
+    [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
         const auto t = detail::cross_plane(ray, WideVec3(0, 0, height_), WideVec3(0, 0, 1), t_max);
-        return t ? std::optional(Candidate{*t}) : std::nullopt;
+        return t ? std::optional(Candidate<T>{*t}) : std::nullopt;
     }
 
-    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate& candidate) const {
+    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate<T>& candidate) const {
         const WideVec3 p = widen(ray.origin) + candidate.distance * widen(ray.direction);
         return make_hit<T>(candidate.distance, WideVec3(wrapped(p.x), wrapped(p.y), height_), WideVec3(0, 0, 1), Flat{},
                            abs(wide(height_)));
@@ -55,8 +58,8 @@ private:
         const wide period(period_);
         if (!(period > 0))
             return x;
-        const T rest = T(x - period * std::floor(x / period));
-        return rest < period_ && rest >= T(0) ? wide(rest) : 0; // rounding may have put it onto the end
+        const T rest = T(x - period * wide(std::floor(double(x / period))));
+        return rest < period_ && rest >= T(0) ? wide(rest) : wide(0); // rounding may have put it onto the end
     }
 
     T height_;
@@ -66,6 +69,9 @@ private:
 /// corner + [0, 1] edge_u + [0, 1] edge_v, edges at any angle. Its normal is along edge_u × edge_v.
 template <class T>
 class Quad {
+    using wide = wide_t<T>;
+    using WideVec3 = Vec3<wide>;
+
 public:
     Quad(const Vec3<T>& corner, const Vec3<T>& edge_u, const Vec3<T>& edge_v)
         : corner_(corner), edge_u_(edge_u), edge_v_(edge_v), normal_(normalize(cross(widen(edge_u), widen(edge_v)))) {}
@@ -77,7 +83,7 @@ public:
         return box.padded();
     }
 
-    [[nodiscard]] std::optional<Candidate> nearest(const Ray<T>& ray, wide t_max) const {
+    [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
         const auto t = detail::cross_plane(ray, widen(corner_), normal_, t_max);
         if (!t)
             return std::nullopt;
@@ -86,10 +92,10 @@ public:
         const wide a = dot(cross(p, v), face), b = dot(cross(u, p), face), one = length2(face);
         if (!(a >= 0 && a <= one && b >= 0 && b <= one))
             return std::nullopt;
-        return Candidate{*t};
+        return Candidate<T>{*t};
     }
 
-    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate& candidate) const {
+    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate<T>& candidate) const {
         const WideVec3 p = widen(ray.origin) + candidate.distance * widen(ray.direction);
         return make_hit<T>(candidate.distance, p - dot(p - widen(corner_), normal_) * normal_, normal_, Flat{},
                            magnitude(corner_) + magnitude(edge_u_) + magnitude(edge_v_));
@@ -103,6 +109,9 @@ private:
 /// A disk of any orientation.
 template <class T>
 class Disk {
+    using wide = wide_t<T>;
+    using WideVec3 = Vec3<wide>;
+
 public:
     /// @param normal  any length but zero
     /// @param radius  world units, > 0
@@ -112,24 +121,24 @@ public:
     [[nodiscard]] Box<T> bounds() const {
         Box<T> box;
         for (int axis = 0; axis < 3; ++axis) {
-            const wide reach = wide(radius_) * sqrt((std::max)(0.0, 1 - square(normal_[axis])));
+            const wide reach = wide(radius_) * sqrt((std::max)(wide(0), 1 - square(normal_[axis])));
             box.min[axis] = center_[axis] - T(reach);
             box.max[axis] = center_[axis] + T(reach);
         }
         return box.padded();
     }
 
-    [[nodiscard]] std::optional<Candidate> nearest(const Ray<T>& ray, wide t_max) const {
+    [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
         const auto t = detail::cross_plane(ray, widen(center_), normal_, t_max);
         if (!t)
             return std::nullopt;
         const WideVec3 p = widen(ray.origin) + *t * widen(ray.direction) - widen(center_);
         if (!(length2(p) <= square(wide(radius_))))
             return std::nullopt;
-        return Candidate{*t};
+        return Candidate<T>{*t};
     }
 
-    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate& candidate) const {
+    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate<T>& candidate) const {
         const WideVec3 p = widen(ray.origin) + candidate.distance * widen(ray.direction);
         return make_hit<T>(candidate.distance, p - dot(p - widen(center_), normal_) * normal_, normal_, Flat{},
                            magnitude(center_) + wide(radius_));

@@ -30,6 +30,9 @@ struct MeshData {
 /// that share an edge, and a hit is as exact as its vertices are.
 template <class T>
 class TriangleMesh {
+    using wide = wide_t<T>;
+    using WideVec3 = Vec3<wide>;
+
 public:
     /// Throws std::invalid_argument for an index out of range, a vertex that is not finite, and counts that differ.
     explicit TriangleMesh(MeshData<T> data) : data_(std::move(data)) {
@@ -59,7 +62,7 @@ public:
         return data_.materials.empty() ? 0 : data_.materials[triangle];
     }
 
-    [[nodiscard]] std::optional<Candidate> nearest(const Ray<T>& ray, wide t_max) const {
+    [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
         return search(ray, t_max, false);
     }
 
@@ -67,7 +70,7 @@ public:
     [[nodiscard]] bool occludes(const Ray<T>& ray) const { return search(ray, wide(ray.t_max), true).has_value(); }
 
     /// `surface` is the triangle's material.
-    [[nodiscard]] Hit<T> hit(const Ray<T>&, const Candidate& candidate) const {
+    [[nodiscard]] Hit<T> hit(const Ray<T>&, const Candidate<T>& candidate) const {
         const auto [p0, p1, p2] = corners(candidate.primitive);
         const WideVec3 e1 = widen(p1) - widen(p0), e2 = widen(p2) - widen(p0);
         const wide u = candidate.u, v = candidate.v;
@@ -124,8 +127,8 @@ private:
         return block;
     }
 
-    [[nodiscard]] std::optional<Candidate> search(const Ray<T>& ray, wide t_max, bool any) const {
-        std::optional<Candidate> best;
+    [[nodiscard]] std::optional<Candidate<T>> search(const Ray<T>& ray, wide t_max, bool any) const {
+        std::optional<Candidate<T>> best;
         const auto visit = [&](std::uint32_t leaf, T nearest) {
             const Block& block = blocks_[leaf];
             std::array<bool, lanes> passes;
@@ -190,8 +193,8 @@ private:
     }
 
     /// The same in `wide`, and the hit's place. A triangle that the ray meets edge-on is not hit: its neighbours are.
-    [[nodiscard]] static std::optional<Candidate> decide(const Block& block, std::size_t lane, const Ray<T>& ray,
-                                                         wide t_max) {
+    [[nodiscard]] static std::optional<Candidate<T>> decide(const Block& block, std::size_t lane, const Ray<T>& ray,
+                                                            wide t_max) {
         const WideVec3 o = widen(ray.origin), d = widen(ray.direction);
         const auto vertex = [&](std::size_t i) {
             const auto& v = block.vertices[i];
@@ -214,10 +217,11 @@ private:
         const wide sign = most > bound ? 1 : -1;
         const wide inner_u = (std::max)(0.0, sign * u), inner_v = (std::max)(0.0, sign * v);
         const wide sum = inner_u + inner_v + (std::max)(0.0, sign * w);
-        return Candidate{t, inner_u / sum, inner_v / sum, block.triangles[lane]};
+        return Candidate<T>{t, inner_u / sum, inner_v / sum, block.triangles[lane]};
     }
 
-    void smooth(Hit<T>& hit, const Candidate& candidate, const std::array<Vec3<T>, 3>& p, const WideVec3& face) const {
+    void smooth(Hit<T>& hit, const Candidate<T>& candidate, const std::array<Vec3<T>, 3>& p,
+                const WideVec3& face) const {
         const auto& t = data_.triangles[candidate.primitive];
         WideVec3 n0 = widen(data_.normals[t[0]]), n1 = widen(data_.normals[t[1]]), n2 = widen(data_.normals[t[2]]);
         const WideVec3 n = n0 + (candidate.u * (n1 - n0) + candidate.v * (n2 - n0));

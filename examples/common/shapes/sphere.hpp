@@ -10,6 +10,9 @@ namespace nephroid::examples {
 
 template <class T>
 class Sphere {
+    using wide = wide_t<T>;
+    using WideVec3 = Vec3<wide>;
+
 public:
     /// @param radius  world units, > 0
     Sphere(const Vec3<T>& center, T radius) : center_(center), radius_(radius) {}
@@ -20,7 +23,7 @@ public:
 
     /// The discriminant is taken from the ray's distance to the centre, which does not cancel.
     /// Source: Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection".
-    [[nodiscard]] std::optional<Candidate> nearest(const Ray<T>& ray, wide t_max) const {
+    [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
         const WideVec3 from_center = widen(ray.origin) - widen(center_), d = widen(ray.direction);
         const wide dd = length2(d), middle = -dot(from_center, d) / dd;
         const WideVec3 closest = from_center + middle * d;
@@ -28,13 +31,13 @@ public:
         if (!(half_chord2 >= 0))
             return std::nullopt;
         const wide half_chord = sqrt(half_chord2);
-        for (const wide t : {middle - half_chord, middle + half_chord})
+        for (const wide& t : {middle - half_chord, middle + half_chord})
             if (t > ray.t_min && t < t_max)
-                return Candidate{t};
+                return Candidate<T>{t};
         return std::nullopt;
     }
 
-    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate& candidate) const {
+    [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate<T>& candidate) const {
         const WideVec3 from_center = widen(ray.origin) + candidate.distance * widen(ray.direction) - widen(center_);
         const WideVec3 n = normalize(from_center);
         const wide k = 1 / wide(radius_); // dn = dx / R in the tangent plane

@@ -5,8 +5,10 @@
 #include "nephroid/emission/sequence/halton.hpp"
 #include "nephroid/emission/sequence/sequence.hpp"
 #include "nephroid/emission/without_tangents.hpp"
+#include "nephroid/estimate/cross_validation.hpp"
 #include "nephroid/estimate/photon_pass.hpp"
 #include "nephroid/estimate/photon_splatter.hpp"
+#include "nephroid/estimate/second_order/curved_footprints.hpp"
 #include "nephroid/estimate/second_order/pilot.hpp"
 
 namespace nephroid {
@@ -21,10 +23,10 @@ inline constexpr std::size_t visits_per_batch = std::size_t(1) << 19, growth = 4
 
 /// Splats photons 0 to count − 1 of a pass.
 ///
-/// @param deposit_of  deposit_of(i, account) -> optional deposit: photon i with its final footprint; what became of it
-///                    otherwise is in the account. Called from several threads
-template <class Splatter, class DepositOf, class E>
-Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const DepositOf& deposit_of, E& executor) {
+/// @param add_photon  add_photon(i, chunk, account) adds photon i with its final footprint to the chunk; what became of
+///                    it otherwise is in the account. Called from several threads
+template <class Splatter, class AddPhoton, class E>
+Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const AddPhoton& add_photon, E& executor) {
     using Chunk = typename Splatter::Chunk;
     std::vector<Chunk> chunks(chunks_per_batch);
     std::vector<Statistics> accounts(chunks_per_batch);
@@ -40,8 +42,7 @@ Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const De
             const std::uint64_t begin = (std::min)(batch_end, done + c * per_chunk);
             const std::uint64_t end = (std::min)(batch_end, begin + per_chunk);
             for (std::uint64_t i = begin; i < end; ++i)
-                if (const auto deposit = deposit_of(i, chunk_account))
-                    chunks[c].add(splatter, *deposit, chunk_account);
+                add_photon(i, chunks[c], chunk_account);
             accounts[c] = chunk_account;
         });
         announce(executor, Phase::splat);
@@ -61,10 +62,26 @@ Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const De
     return account;
 }
 
+/// Adds a photon where its neighbours say, in the footprint or the pieces that they say.
+template <class Footprints, class Photon, class Splatter>
+void add_placed(const Footprints& footprints, Photon& photon, const Splatter& splatter, typename Splatter::Chunk& chunk,
+                Statistics& account) {
+    const auto& policies = splatter.policies();
+    if constexpr (std::derived_from<std::remove_cvref_t<decltype(policies.order)>, CurvedFootprints>) {
+        std::array<Space3, 3> second;
+        account.bounded_shifts += footprints.apply(photon, &second);
+        const double moment = std::remove_cvref_t<decltype(policies.kernel)>::second_moment;
+        chunk.add(splatter, curved(*photon.deposit, second, policies.order, moment).pieces(), account);
+    } else {
+        account.bounded_shifts += footprints.apply(photon);
+        chunk.add(splatter, *photon.deposit, account);
+    }
+}
+
 /// Whether footprints are to be placed and sized by neighbouring photons: they need differentials for it.
 template <class Policies, class L>
 inline constexpr bool is_second_order = requires(const Policies policies) {
-    requires std::same_as<std::remove_cvref_t<decltype(policies.order)>, SecondOrder>;
+    requires std::derived_from<std::remove_cvref_t<decltype(policies.order)>, SecondOrder>;
     requires std::same_as<std::remove_cvref_t<decltype(policies.shape)>, DifferentialFootprint>;
 }
 &&Light<L>;
@@ -82,7 +99,8 @@ inline constexpr bool is_second_order = requires(const Policies policies) {
 /// @return  what became of the flux, and counts
 /// Throws std::invalid_argument for zero photons, a smoothing that is not positive, and bounds of `SecondOrder` that
 /// cannot be.
-/// Memory: the splatter's sums, one batch, and the pilot photons of second-order splatting, whatever the number of photons.
+/// Memory: the splatter's sums, one batch, and the pilot photons of second-order splatting, whatever the number of
+/// photons; while a smoothing is chosen for lights without cells (cross_validation.hpp), the sums twice.
 template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
           detail::MustBeSequence Sequence = HaltonSequence, class E = SerialExecutor>
     requires detail::MustBeScene<S, V, Sampler<Sequence>> && detail::MustEmit<L, V, F> && ExecutorArgument<E>
@@ -93,28 +111,30 @@ template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
         if constexpr (detail::is_second_order<Policies, L>) {
             detail::check(splatter.policies().order, "nephroid::splat_caustics");
             const auto pilot = detail::trace_pilot(scene, light, pass, splatter.policies().order, sequence, executor);
-            const auto footprints =
-                detail::footprints_from(pilot, pass, splatter.policies(), double(splatter.map().diagonal()),
-                                        Sequence::stratified, executor);
+            auto footprints = detail::footprints_from(pilot, pass, splatter.policies(), double(splatter.map().diagonal()),
+                                                      Sequence::stratified, executor);
+            if (!pass.smoothing)
+                footprints.smooth_others(
+                    detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
             return detail::splat_in_batches(
                 splatter, pass,
-                [&](std::uint64_t i, Statistics& account) {
+                [&](std::uint64_t i, auto& chunk, Statistics& account) {
                     auto photon = pilot.has(pass.first + i)
                                       ? pilot.take(pass.first + i, account)
                                       : detail::trace_photon(scene, light, pass, sequence, pass.first + i, account);
                     if (photon.deposit)
-                        account.bounded_shifts += footprints.apply(photon);
-                    return photon.deposit;
+                        detail::add_placed(footprints, photon, splatter, chunk, account);
                 },
                 executor);
         } else {
             const Spread<T> spread = detail::spread_of<T>(pass);
             return detail::splat_in_batches(
                 splatter, pass,
-                [&](std::uint64_t i, Statistics& account) {
+                [&](std::uint64_t i, auto& chunk, Statistics& account) {
                     Sampler<Sequence> sampler(sequence, pass.first + i);
                     const auto photon = light.emit(sampler, spread);
-                    return walk(scene, photon, sampler, pass.limits, account);
+                    if (const auto deposit = walk(scene, photon, sampler, pass.limits, account))
+                        chunk.add(splatter, *deposit, account);
                 },
                 executor);
         }

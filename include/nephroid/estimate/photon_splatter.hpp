@@ -17,6 +17,11 @@ namespace nephroid {
 /// irradiance, which the caller multiplies with throughput · albedo / π.
 struct Irradiance {};
 
+/// All leaves of the map's tree take photons.
+struct EveryLeaf {
+    [[nodiscard]] constexpr bool operator()(std::uint32_t) const { return true; }
+};
+
 /// Sums up photons at the vertices of an eye path map [Frisvad et al. 2014, eq. 10].
 ///
 /// @tparam V         vector
@@ -50,26 +55,30 @@ public:
     class Chunk {
     public:
         /// Splats a deposit; its flux is booked in the account under what became of it.
+        ///
+        /// @param takes  takes(leaf) -> whether that leaf of the map's tree is to get its part: all do unless told
+        template <std::size_t N, class Takes = EveryLeaf>
+        void add(const PhotonSplatter& splatter, const Deposit<V, F, N>& deposit, Statistics& account,
+                 const Takes& takes = {}) {
+            account.end(place(splatter, deposit, account, takes), power(deposit));
+        }
+
+        /// Splats a photon that was taken to pieces: it is splatted if one of them is, and the flux of each is booked
+        /// under what became of it. At least one.
         template <std::size_t N>
-        void add(const PhotonSplatter& splatter, const Deposit<V, F, N>& deposit, Statistics& account) {
-            const auto outcome = make_splat(deposit, *splatter.map_, splatter.policies_);
-            account.bounded_footprints += outcome.bounded;
-            Fate fate = outcome.fate;
-            if (outcome.splat) {
-                const std::size_t before = leaves_.size();
-                const auto number = std::uint32_t(splats_.size());
-                splatter.map_->tree().visit_leaves(outcome.splat->box, [&](std::uint32_t leaf) {
-                    if (splatter.facing(leaf, *outcome.splat) < 0)
-                        return;
-                    leaves_.push_back(leaf);
-                    numbers_.push_back(number);
-                });
-                if (leaves_.size() == before)
-                    fate = Fate::unseen;
-                else
-                    splats_.push_back(*outcome.splat);
+        void add(const PhotonSplatter& splatter, std::span<const Deposit<V, F, N>> pieces, Statistics& account) {
+            std::array<double, fate_count> flux{};
+            Fate fate = Fate::splatted;
+            bool is_splatted = false;
+            for (const Deposit<V, F, N>& piece : pieces) {
+                const Fate its = place(splatter, piece, account, EveryLeaf{});
+                flux[std::size_t(its)] += power(piece);
+                is_splatted = is_splatted || its == Fate::splatted;
+                fate = is_splatted ? Fate::splatted : its;
             }
-            account.end(fate, double(flux_traits<F>::power(deposit.flux)));
+            account.end(fate, 0);
+            for (std::size_t i = 0; i < fate_count; ++i)
+                account.lose(Fate(i), flux[i]);
         }
 
         void clear() {
@@ -83,6 +92,33 @@ public:
 
     private:
         friend PhotonSplatter;
+
+        template <std::size_t N>
+        [[nodiscard]] static double power(const Deposit<V, F, N>& deposit) {
+            return double(flux_traits<F>::power(deposit.flux));
+        }
+
+        template <std::size_t N, class Takes>
+        [[nodiscard]] Fate place(const PhotonSplatter& splatter, const Deposit<V, F, N>& deposit, Statistics& account,
+                                 const Takes& takes) {
+            const auto outcome = make_splat(deposit, *splatter.map_, splatter.policies_);
+            account.bounded_footprints += outcome.bounded;
+            if (!outcome.splat)
+                return outcome.fate;
+            const std::size_t before = leaves_.size();
+            const auto number = std::uint32_t(splats_.size());
+            splatter.map_->tree().visit_leaves(outcome.splat->box, [&](std::uint32_t leaf) {
+                if (!takes(leaf) || splatter.facing(leaf, *outcome.splat) < 0)
+                    return;
+                leaves_.push_back(leaf);
+                numbers_.push_back(number);
+            });
+            if (leaves_.size() == before)
+                return Fate::unseen;
+            splats_.push_back(*outcome.splat);
+            return outcome.fate;
+        }
+
         std::vector<Splat<V, F>> splats_;
         std::vector<std::uint32_t> leaves_, numbers_; // pairs: this leaf is met by the splat with this number
     };
@@ -110,6 +146,12 @@ public:
         for (const TreeLeaf& leaf : map_->tree().leaves())
             for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
                 sink(std::size_t(map_->tree().index(slot)), sums_[slot]);
+    }
+
+    /// The sums at the vertices of one leaf of the map's tree, by slot.
+    [[nodiscard]] std::span<const F> sums(std::uint32_t leaf) const {
+        const TreeLeaf& range = map_->tree().leaves()[leaf];
+        return {sums_.data() + range.first, range.size};
     }
 
 private:

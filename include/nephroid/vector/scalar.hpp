@@ -16,7 +16,7 @@ namespace nephroid {
 /// Specialise to true; the type then needs + − * /, comparisons, construction from arithmetic types and explicit
 /// conversion to them, std::numeric_limits, and sqrt, abs, sin, cos, isfinite found by argument-dependent look-up (atan2
 /// where footprints are bounded, exp for the Gaussian kernel). Comparisons decide which way a photon goes; a dual number
-/// compares its value alone. tests/support/dual.hpp is one, through which a whole caustic is differentiated.
+/// compares its value alone. vector/dual.hpp is one, through which a whole caustic is differentiated.
 template <class T>
 inline constexpr bool is_scalar = std::is_floating_point_v<T>;
 

@@ -5,12 +5,14 @@
 #include "support/space.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/emission/light/disk.hpp"
 #include "nephroid/emission/light/point.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
 using namespace nephroid;
 using tests::Draws;
@@ -95,6 +97,50 @@ TEST_CASE("emission frame: axes of axes are those of both steps") {
         check_close(one.second, {0, 1}, 256 * epsilon);
         // A place is the same place by way of another one.
         check_close(a.to(b) + a.axes_of(b)(b.to(c)), a.to(c), 1024 * epsilon);
+    }
+}
+
+// u0 of places is sqrt(area / (π N)) = radius / sqrt(N), of directions as many units as make N of them π.
+TEST_CASE("emission frame: an area light's photons differ in place and in direction") {
+    const double photons = 400, radius = 3;
+    const DiskLight<D, double> disk({.center = {1, 2, 3}, .normal = {0, 0, -1}, .radius = radius, .radiance = 1});
+    const auto photon = [&](std::vector<double> samples) {
+        GivenSamples given(samples);
+        return disk.emit(given, Spread<double>{photons, 1});
+    };
+    const auto from = photon({0.6, 0.3, 0.7, 0.4}), there = photon({0.65, 0.25, 0.7, 0.4}),
+               turned = photon({0.6, 0.3, 0.72, 0.43});
+    const EmissionFrame frame(from);
+    REQUIRE(frame.is_of_area());
+    CHECK(frame.is_regular());
+    const AreaStep to_there = frame.step_to(EmissionFrame(there)), to_turned = frame.step_to(EmissionFrame(turned));
+    // The directions are as apart as there is density of them, 1/π of the cosine.
+    const double unit_of_place = radius / std::sqrt(photons),
+                 unit_of_direction = std::sqrt(1 / (photons * std::abs(from.direction.z)));
+    CHECK(std::hypot(to_there.place.x, to_there.place.y) ==
+          doctest::Approx(length(there.position - from.position) / unit_of_place).epsilon(1e-9));
+    CHECK(std::hypot(to_there.direction.x, to_there.direction.y) < 1e-9);
+    CHECK(std::hypot(to_turned.place.x, to_turned.place.y) < 1e-9);
+    const D change = turned.direction - from.direction, across = change - dot(change, from.direction) * from.direction;
+    CHECK(std::hypot(to_turned.direction.x, to_turned.direction.y) ==
+          doctest::Approx(length(across) / unit_of_direction).epsilon(1e-9));
+
+    const DirectionalLight<D, double> sun(
+        {.direction = {0, 0, -1}, .irradiance = 1, .patch = BoundingSphere<D>{{0, 0, 0}, 1}});
+    CHECK(!EmissionFrame(photon_from(sun, 0.5, 0.5, 100)).is_of_area());
+    CHECK(!EmissionFrame().is_of_area());
+}
+
+TEST_CASE("emission frame: how tangents are turned about the ray is told") {
+    const auto with = [](double angle, double scale) {
+        const double c = scale * std::cos(angle), s = scale * std::sin(angle);
+        return EmissionFrame(Photon<D, double>{
+            {0, 0, 0}, {0, 0, -1}, 1, {Tangent<D>{{c, s, 0}, {c, s, 0}}, Tangent<D>{{-s, c, 0}, {-s, c, 0}}}});
+    };
+    for (const double angle : {0.0, 0.3, 2.0, -3.0}) {
+        const PlaneMatrix turn = with(0.5, 1).turn_of(with(0.5 + angle, 1.7)); // whatever their lengths
+        check_close(turn.first, {std::cos(angle), std::sin(angle)}, 64 * epsilon);
+        check_close(turn.second, {-std::sin(angle), std::cos(angle)}, 64 * epsilon);
     }
 }
 

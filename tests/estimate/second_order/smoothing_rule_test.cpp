@@ -115,6 +115,22 @@ TEST_CASE("smoothing rule: where the map bends alike in all directions s is the 
     }
 }
 
+// The rule for two coordinates and random photons has 0.923 where this one has 1.2 or 1.5.
+TEST_CASE("smoothing rule: area lights have wider footprints of the same shape and the same bounds") {
+    Draws draw(5);
+    for (int i = 0; i < 100; ++i) {
+        const Symmetric2 log_q = log_of(any_bending(draw)), s = smoothing_tensor(log_q, {}, unbounded);
+        for (const bool stratified : {true, false}) {
+            const double wider = (stratified ? 1.2 : 1.5) / 0.923;
+            check_close(area_smoothing_tensor(log_q, stratified, unbounded), wider * wider * s, 1e-12 * s.trace());
+        }
+        const SmoothingBounds bounds{.least = 5, .least_radius = 6, .largest_radius = 7};
+        const Principal2 radii2(area_smoothing_tensor(log_q, true, bounds));
+        CHECK(radii2.larger <= 49 * (1 + 1e-12));
+        CHECK(radii2.smaller >= 36 * (1 - 1e-12));
+    }
+}
+
 TEST_CASE("smoothing rule: the footprint is wide where the map is straight and narrow where it bends") {
     Draws draw(3);
     for (int i = 0; i < 300; ++i) {

@@ -9,6 +9,12 @@
 
 namespace nephroid {
 
+/// From one photon of an area light to another: how far apart in place and in direction, each in units of the half
+/// tangents' parts.
+struct AreaStep {
+    Plane2 place, direction;
+};
+
 /// A photon at emission as the origin of coordinates: one unit along an axis is half of the length of that tangent,
 /// u0 = s sqrt(domain / (π N)), so that a photon stands for π square units at s = 1.
 ///
@@ -44,6 +50,40 @@ public:
                 solve({dot(axes_[0], other.axes_[1]), dot(axes_[1], other.axes_[1])})};
     }
 
+    /// Whether place and direction vary along both tangents, each as an area light's do: four coordinates in all.
+    [[nodiscard]] bool is_of_area() const {
+        const auto spans = [this](std::size_t part) {
+            const Symmetric2 gram = gram_of(part);
+            return gram.determinant() > 1e-6 * gram.xx * gram.yy && std::isfinite(gram.trace());
+        };
+        return spans(0) && spans(3);
+    }
+
+    /// Where another photon was emitted, by place and by direction; `is_of_area` must hold.
+    [[nodiscard]] AreaStep step_to(const EmissionFrame& other) const {
+        const auto part = [&](std::size_t first) {
+            Plane2 along;
+            for (std::size_t i = first; i < first + 3; ++i)
+                along = along + (other.ray_[i] - ray_[i]) * Plane2{axes_[0][i], axes_[1][i]};
+            return 2 * solve(gram_of(first), along);
+        };
+        return {part(0), part(3)};
+    }
+
+    /// By how much the other's tangents are turned about their rays against these: a vector of coordinates v there is
+    /// `turn_of(other)(v)` here. Of directions alone: `is_of_area` must hold.
+    [[nodiscard]] PlaneMatrix turn_of(const EmissionFrame& other) const {
+        const auto along = [&](std::size_t axis) {
+            Plane2 v;
+            for (std::size_t i = 3; i < 6; ++i)
+                v = v + other.axes_[axis][i] * Plane2{axes_[0][i], axes_[1][i]};
+            return solve(gram_of(3), v);
+        };
+        const Plane2 u = along(0), v = along(1);
+        const double c = u.x + v.y, s = u.y - v.x, norm = std::hypot(c, s); // the nearest rotation
+        return norm > 0 ? PlaneMatrix{{c / norm, s / norm}, {-s / norm, c / norm}} : PlaneMatrix{{1, 0}, {0, 1}};
+    }
+
 private:
     using Ray = std::array<double, 6>;
 
@@ -61,9 +101,18 @@ private:
         return sum;
     }
 
-    [[nodiscard]] Plane2 solve(Plane2 v) const {
-        const double d = 1 / gram_.determinant();
-        return {d * (gram_.yy * v.x - gram_.xy * v.y), d * (gram_.xx * v.y - gram_.xy * v.x)};
+    [[nodiscard]] static Plane2 solve(const Symmetric2& gram, Plane2 v) {
+        const double d = 1 / gram.determinant();
+        return {d * (gram.yy * v.x - gram.xy * v.y), d * (gram.xx * v.y - gram.xy * v.x)};
+    }
+    [[nodiscard]] Plane2 solve(Plane2 v) const { return solve(gram_, v); }
+
+    /// Of the axes' parts: 0 the position's, 3 the direction's.
+    [[nodiscard]] Symmetric2 gram_of(std::size_t first) const {
+        Symmetric2 gram;
+        for (std::size_t i = first; i < first + 3; ++i)
+            gram += Symmetric2::outer({axes_[0][i], axes_[1][i]});
+        return gram;
     }
 
     Ray ray_{};

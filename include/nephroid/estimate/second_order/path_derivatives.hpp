@@ -2,6 +2,7 @@
 /// @file  Second and third derivatives of the map from light to surface, fitted to photons and their tangents.
 #pragma once
 
+#include "nephroid/vector/least_squares.hpp"
 #include "nephroid/vector/plane.hpp"
 
 #include <algorithm>
@@ -59,75 +60,23 @@ public:
     /// @param weight   > 0
     void add(Plane2 at, const std::array<Space3, 2>& tangents, double weight) {
         const double xx = 0.5 * at.x * at.x, xy = at.x * at.y, yy = 0.5 * at.y * at.y;
-        const std::array<std::array<double, unknowns>, 2> rows = {
-            {{1, 0, at.x, at.y, 0, xx, xy, yy, 0}, {0, 1, 0, at.x, at.y, 0, xx, xy, yy}}};
-        for (std::size_t r = 0; r < 2; ++r)
-            for (std::size_t i = 0; i < unknowns; ++i) {
-                const double w = weight * rows[r][i];
-                if (w == 0)
-                    continue;
-                for (std::size_t j = 0; j <= i; ++j)
-                    normal_[i][j] += w * rows[r][j];
-                right_[i] += w * tangents[r];
-            }
+        equations_.add({1, 0, at.x, at.y, 0, xx, xy, yy, 0}, tangents[0], weight);
+        equations_.add({0, 1, 0, at.x, at.y, 0, xx, xy, yy}, tangents[1], weight);
         ++photons_;
     }
 
     /// @return  whether the photons determine at least J and H
     [[nodiscard]] bool solve(PathDerivatives& result) const {
-        constexpr std::size_t without_third = 5;
+        constexpr std::size_t unknowns = 9, without_third = 5;
         std::array<Space3, unknowns> x{};
-        if (photons_ < 8 || !solve(unknowns, x)) {
-            x = {};
-            if (photons_ < 4 || !solve(without_third, x))
-                return false;
-        }
+        if ((photons_ < 8 || !equations_.solve(unknowns, x)) && (photons_ < 4 || !equations_.solve(without_third, x)))
+            return false;
         result = {{x[0], x[1]}, {x[2], x[3], x[4]}, {x[5], x[6], x[7], x[8]}};
         return true;
     }
 
 private:
-    static constexpr std::size_t unknowns = 9;
-
-    /// Of the first n unknowns, by Cholesky's decomposition of the matrix scaled to a unit diagonal.
-    [[nodiscard]] bool solve(std::size_t n, std::array<Space3, unknowns>& x) const {
-        constexpr double least_pivot = 1e-4; // of 1: what is left of a column after the others; rounding is far below
-        std::array<double, unknowns> scale;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (!(normal_[i][i] > 0))
-                return false;
-            scale[i] = 1 / std::sqrt(normal_[i][i]);
-        }
-        std::array<std::array<double, unknowns>, unknowns> l{};
-        for (std::size_t i = 0; i < n; ++i) {
-            Space3 b = scale[i] * right_[i];
-            for (std::size_t j = 0; j <= i; ++j) {
-                double sum = normal_[i][j] * scale[i] * scale[j];
-                for (std::size_t k = 0; k < j; ++k)
-                    sum -= l[i][k] * l[j][k];
-                if (j < i) {
-                    l[i][j] = sum / l[j][j];
-                    b = b - l[i][j] * x[j];
-                } else {
-                    if (!(sum > least_pivot))
-                        return false;
-                    l[i][i] = std::sqrt(sum);
-                    x[i] = (1 / l[i][i]) * b;
-                }
-            }
-        }
-        for (std::size_t i = n; i-- > 0;) {
-            for (std::size_t k = i + 1; k < n; ++k)
-                x[i] = x[i] - l[k][i] * x[k];
-            x[i] = (1 / l[i][i]) * x[i];
-        }
-        for (std::size_t i = 0; i < n; ++i)
-            x[i] = scale[i] * x[i];
-        return true;
-    }
-
-    std::array<std::array<double, unknowns>, unknowns> normal_{}; // lower triangle
-    std::array<Space3, unknowns> right_{};
+    LeastSquares<9, Space3> equations_;
     std::size_t photons_ = 0;
 };
 

@@ -35,7 +35,7 @@ struct SecondOrder {
                                  ///< opposite borders of the patch are neighbours
 };
 
-/// s where none is given and the photons do not say: for area lights, and of first order.
+/// s where none is given: of first order, and of photons about which neither their neighbours say nor the others together.
 inline constexpr double default_smoothing = 8;
 
 namespace detail {

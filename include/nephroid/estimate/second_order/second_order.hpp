@@ -6,13 +6,17 @@
 /// div[J⁻¹(m₂/2 ∂_a(S_ab ∂_b F) − D)] to second order, div taken over the emission domain, D the shift of its centre.
 /// So D = m₂/2 (S_ab F_ab + (∂_a S_ab) F_b) leaves a bias of fourth order. It costs nothing per pixel.
 ///
-/// For two emission coordinates (point, spot and directional lights) this is exact; an area light draws four numbers, and
-/// its photons are splatted as without it.
+/// For two emission coordinates (point, spot and directional lights) this is exact; for the four of an area light the
+/// same shift does it, along the slice that a footprint follows (area_field.hpp). Photons of lights that draw any other
+/// number of samples are splatted as without it, with one smoothing for all (cross_validation.hpp).
 #pragma once
 
+#include "nephroid/estimate/second_order/area_field.hpp"
 #include "nephroid/estimate/second_order/footprint_field.hpp"
 
 #include <limits>
+#include <utility>
+#include <variant>
 
 namespace nephroid {
 
@@ -36,21 +40,21 @@ public:
     SecondOrderFootprints(std::span<const TracedPhoton<V, F, N>> pilot, const Options& options, E& executor)
         : options_(options) {
         struct OfOneLight {
-            std::uint32_t light;
+            Origin origin;
             std::span<const TracedPhoton<V, F, N>> all;
             std::vector<std::uint32_t> indices;
             [[nodiscard]] std::size_t size() const { return indices.size(); }
             [[nodiscard]] const TracedPhoton<V, F, N>& operator[](std::size_t i) const { return all[indices[i]]; }
         };
-        std::vector<OfOneLight> by_light; // sorted by light
+        std::vector<OfOneLight> by_light; // sorted
         for (std::size_t i = 0; i < pilot.size(); ++i) {
-            const EmissionSample& sample = pilot[i].sample;
-            if (sample.dimensions != 2)
+            const Origin origin = origin_of(pilot[i].sample);
+            if (!has_cells(pilot[i].sample))
                 continue;
-            auto found = std::lower_bound(by_light.begin(), by_light.end(), sample.light,
-                                          [](const OfOneLight& a, std::uint32_t light) { return a.light < light; });
-            if (found == by_light.end() || found->light != sample.light)
-                found = by_light.insert(found, {sample.light, pilot, {}});
+            auto found = std::lower_bound(by_light.begin(), by_light.end(), origin,
+                                          [](const OfOneLight& a, const Origin& o) { return a.origin < o; });
+            if (found == by_light.end() || found->origin != origin)
+                found = by_light.insert(found, {origin, pilot, {}});
             found->indices.push_back(std::uint32_t(i));
         }
         fields_.reserve(by_light.size());
@@ -61,25 +65,37 @@ public:
                                      .scale = 0.125 / options.second_moment,
                                      .photons = options.photons * double(photons.size()) / double(pilot.size()),
                                      .bounds = options.policy.bounds};
-            fields_.push_back({photons.light, FootprintField(photons, field, executor)});
+            if (photons.origin.second == 2)
+                fields_.push_back({photons.origin, FootprintField(photons, field, executor)});
+            else
+                fields_.push_back({photons.origin, AreaField(photons, field, executor)});
         }
     }
+
+    /// Whether a light's samples say which of its photons are neighbours.
+    [[nodiscard]] static bool has_cells(const EmissionSample& sample) {
+        return sample.dimensions == 2 || sample.dimensions == 4;
+    }
+
+    /// What photons get that have no cells, where no smoothing is given; `default_smoothing` unless called.
+    void smooth_others(double smoothing) { others_ = smoothing; }
 
     /// Gives a deposit its footprint and its place.
     ///
     /// @param photon  emitted with smoothing 1; its deposit must not be empty
+    /// @param second  if given, gets the map's second derivatives by the halves of the new tangents, along the surface; as
+    ///                much shortened as the shift is, and 0 where they are not known
     /// @return  whether the shift was shortened
     template <Flux F, std::size_t N>
-    bool apply(TracedPhoton<V, F, N>& photon) const {
+    bool apply(TracedPhoton<V, F, N>& photon, std::array<Space3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
-        const FootprintField* field = field_of(photon.sample);
-        const auto found = field != nullptr && photon.frame.is_regular()
-                               ? field->at(photon.sample.at, photon.frame, photon.signature)
-                               : std::nullopt;
+        const std::optional<FieldSample> found = photon.frame.is_regular() ? field_at(photon) : std::nullopt;
         const auto tangents = unit_tangents(deposit);
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
-            const double fallback = photon.sample.dimensions == 2 ? options_.policy.bounds.least : default_smoothing;
+            const double fallback = photon.sample.dimensions == 2 ? options_.policy.bounds.least : others_;
             scale(deposit, T(options_.smoothing.value_or(fallback)));
+            if (second != nullptr)
+                *second = {};
             return false;
         }
 
@@ -105,6 +121,11 @@ public:
         const double distance = std::sqrt(inner(shift, shift));
         const double share = distance > most ? most / distance : 1;
         bounded = bounded || distance > most;
+        if (second != nullptr) {
+            *second = turned(found->second, {{l00, l10}, {0, l11}});
+            for (Space3& h : *second)
+                h = along_surface(share * h, deposit.normal);
+        }
 
         // In the renderer's own scalar again, which may know derivatives: S and H are constants to those.
         const V d_u = deposit.d_position[0], d_v = deposit.d_position[1];
@@ -131,20 +152,29 @@ private:
             d = s * d;
     }
 
-    /// Nothing for lights that draw more than two numbers, or of which there are too few photons.
-    [[nodiscard]] const FootprintField* field_of(const EmissionSample& sample) const {
-        const auto found = std::lower_bound(fields_.begin(), fields_.end(), sample.light,
-                                            [](const LightField& a, std::uint32_t light) { return a.light < light; });
-        const bool is_its = found != fields_.end() && found->light == sample.light && sample.dimensions == 2;
-        return is_its ? &found->field : nullptr;
-    }
+    /// A light, and how many numbers it drew.
+    using Origin = std::pair<std::uint32_t, std::uint32_t>;
+    [[nodiscard]] static Origin origin_of(const EmissionSample& sample) { return {sample.light, sample.dimensions}; }
 
     struct LightField {
-        std::uint32_t light;
-        FootprintField field;
+        Origin origin;
+        std::variant<FootprintField, AreaField> field;
     };
 
+    /// Nothing for lights that draw neither two nor four numbers, or of which there are too few photons.
+    [[nodiscard]] std::optional<FieldSample> field_at(const PathSample& photon) const {
+        const Origin origin = origin_of(photon.sample);
+        const auto found = std::lower_bound(fields_.begin(), fields_.end(), origin,
+                                            [](const LightField& a, const Origin& o) { return a.origin < o; });
+        if (found == fields_.end() || found->origin != origin)
+            return std::nullopt;
+        if (const auto* of_area = std::get_if<AreaField>(&found->field))
+            return of_area->at(photon.sample, photon.frame, photon.signature);
+        return std::get_if<FootprintField>(&found->field)->at(photon.sample.at, photon.frame, photon.signature);
+    }
+
     Options options_;
+    double others_ = default_smoothing;
     std::vector<LightField> fields_; // sorted by light
 };
 
