@@ -117,12 +117,36 @@ TEST_CASE_TEMPLATE("nearest photons: coincident photons give a large finite esti
     const auto heap = map_of_stored(photons);
     const NearestPhotons from_heap(heap, {.count = 20});
     CHECK(from_heap(there, up<V>()) == 0);
-    CHECK(from_heap({T(0.5), T(0.5), 0}, up<V>()) == 0); // all on the rim
+    // All on the rim, where the biweight kernel has no more than epsilon squared left.
+    CHECK(double(from_heap({T(0.5), T(0.5), 0}, up<V>())) < 20 / 0.0625 * square(epsilon<T>) * 1.01);
     photons.push_back(tests::on_floor<V>(0.5, 0.5, 1));
     const auto map = map_of_stored(photons);
     const T e = NearestPhotons(map, {.count = 20})(there, up<V>());
     const double radius = 4 * epsilon<T> * std::hypot(0.25, 0.5);
     CHECK(double(e) == doctest::Approx(20 * 3 / std::numbers::pi / (radius * radius)).epsilon(1e-5));
+}
+
+// In the middle of a square of photons: k − 1 of the k nearest count, whichever of those on the rim is the k-th. At r²/R² =
+// 1/8 the Epanechnikov kernel is 2/π · 7/8.
+TEST_CASE_TEMPLATE("nearest photons: of those at one distance all but one count", T, float, double) {
+    using V = Vec<T>;
+    std::vector<Stored<V>> photons;
+    for (const double y : {-0.25, 0.25})
+        for (const double x : {-0.25, 0.25})
+            photons.push_back(tests::on_floor<V>(x, y, 1));
+    const auto map = map_of_stored(photons);
+    const double disk = std::numbers::pi * 0.125;
+    const NearestPhotons all(map, {.count = 4}, UniformKernel{}), two(map, {.count = 2}, UniformKernel{});
+    CHECK(double(all({0, 0, 0}, up<V>())) == doctest::Approx(3 / disk).epsilon(8 * epsilon<T>));
+    CHECK(double(two({0, 0, 0}, up<V>())) == doctest::Approx(1 / disk).epsilon(8 * epsilon<T>));
+    CHECK(double(all({0, 0, 0}, up<V>(), [](const V&) { return T(2); })) ==
+          doctest::Approx(6 / disk).epsilon(8 * epsilon<T>));
+    photons.push_back(tests::on_floor<V>(0.125, 0, 4)); // within: it counts whole, and three quarters of the others
+    const auto five = map_of_stored(photons);
+    const NearestPhotons with_inner(five, {.count = 5}, UniformKernel{});
+    CHECK(double(with_inner({0, 0, 0}, up<V>())) == doctest::Approx(7 / disk).epsilon(8 * epsilon<T>));
+    CHECK(double(NearestPhotons(five, {.count = 5}, EpanechnikovKernel{})({0, 0, 0}, up<V>())) ==
+          doctest::Approx(4 * 2 * (1 - 0.125) / disk).epsilon(16 * epsilon<T>));
 }
 
 // E[1/(π R²)] = ρ/(k − 1): with k = 5 an estimate that counted the fifth would be a quarter too bright. An estimate's

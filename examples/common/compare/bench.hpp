@@ -32,6 +32,7 @@ struct Photons {
         pass_begin;                ///< index of the first deposit of each pass of progressive methods, and the end
     double trace_seconds = 0;      ///< with tangents
     double bare_trace_seconds = 0; ///< without
+    mutable std::shared_ptr<struct DiffusionSweep> diffusion; ///< kept from one bandwidth to the next
 
     [[nodiscard]] std::size_t passes() const { return pass_begin.size() - 1; }
     /// Index of the first photon emitted in a pass; for `passes()` the number of all.

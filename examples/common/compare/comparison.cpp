@@ -28,6 +28,7 @@ constexpr int curve_reach = 12;
 [[nodiscard]] Best measured(const Bench& bench, const Method& method, const Photons& photons, double bandwidth,
                             unsigned repeats) {
     Best best;
+    best.method = &method;
     best.bandwidth = bandwidth;
     std::vector<Seconds> runs;
     std::optional<double> memory;
@@ -47,6 +48,31 @@ constexpr int curve_reach = 12;
     return best;
 }
 
+/// What is best by a measure so far.
+struct Choice {
+    const Method* method = nullptr;
+    double bandwidth = 0, cost = 0;
+};
+
+[[nodiscard]] Sweep swept(const CompareOptions& options, const Bench& bench, const Method& method,
+                          const Photons& photons, std::array<Choice, measures.size()>& choices) {
+    BandwidthSweep sweep({method.expected(bench, photons), method.least(bench, photons), method.most(bench, photons),
+                          method.ratio, method.is_whole},
+                         [&](double bandwidth) {
+                             return bench.errors(method.run(bench, photons, bandwidth, Source::stored).irradiance);
+                         });
+    if (options.sweep && photons.wanted == options.photons.front())
+        sweep.cover(curve_reach);
+    for (const Measure measure : measures) {
+        Choice& best = choices[std::size_t(measure)];
+        const double bandwidth = sweep.best(measure);
+        const double cost = cost_of(sweep.evaluated().at(bandwidth), measure);
+        if (!best.method || cost < best.cost)
+            best = {&method, bandwidth, cost};
+    }
+    return {&method, sweep.evaluated()};
+}
+
 [[nodiscard]] Trial tried(const CompareOptions& options, const Bench& bench, const Method& method,
                           const Photons& photons) {
     Trial trial;
@@ -56,22 +82,20 @@ constexpr int curve_reach = 12;
     trial.caustic = photons.deposits.size();
     trial.emitted = photons.emitted;
 
-    BandwidthSweep sweep({method.expected(bench, photons), method.least(bench, photons), method.most(bench, photons),
-                          method.ratio, method.is_whole},
-                         [&](double bandwidth) {
-                             return bench.errors(method.run(bench, photons, bandwidth, Source::stored).irradiance);
-                         });
-    if (options.sweep && photons.wanted == options.photons.front())
-        sweep.cover(curve_reach);
+    std::array<Choice, measures.size()> choices;
+    trial.sweeps.push_back(swept(options, bench, method, photons, choices));
+    for (const Method& setting : method.settings)
+        trial.sweeps.push_back(swept(options, bench, setting, photons, choices));
+    photons.diffusion.reset(); // not to be counted as another method's memory
     for (const Measure measure : measures) {
-        const double bandwidth = sweep.best(measure);
-        const auto same = std::ranges::find(trial.best.begin(), trial.best.begin() + std::ptrdiff_t(measure), bandwidth,
-                                            &Best::bandwidth);
-        trial.best[std::size_t(measure)] = same != trial.best.begin() + std::ptrdiff_t(measure)
-                                               ? *same
-                                               : measured(bench, method, photons, bandwidth, options.repeats);
+        const auto [chosen, bandwidth, cost] = choices[std::size_t(measure)];
+        const auto end = trial.best.begin() + std::ptrdiff_t(measure);
+        const auto same = std::find_if(trial.best.begin(), end, [&, m = chosen, h = bandwidth](const Best& best) {
+            return best.method == m && best.bandwidth == h;
+        });
+        trial.best[std::size_t(measure)] =
+            same != end ? *same : measured(bench, *chosen, photons, bandwidth, options.repeats);
     }
-    trial.sweep = sweep.evaluated();
     return trial;
 }
 

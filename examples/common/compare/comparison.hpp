@@ -19,10 +19,17 @@ struct Timing {
 
 /// A picture made from the lamp with a bandwidth that is best by some measure.
 struct Best {
+    const Method* method = nullptr; ///< in the setting that is best
     double bandwidth = 0;
     Errors errors;
     Timing timing;
     std::vector<float> irradiance; ///< the picture
+};
+
+/// The errors of a method in one of its settings.
+struct Sweep {
+    const Method* method = nullptr;
+    std::map<double, Errors> errors; ///< by bandwidth
 };
 
 /// One method with the photons of one sequence and count.
@@ -30,7 +37,7 @@ struct Trial {
     const Method* method = nullptr;
     SequenceKind sequence{};
     std::uint64_t wanted = 0, caustic = 0, emitted = 0; ///< photons
-    std::map<double, Errors> sweep;                     ///< by bandwidth
+    std::vector<Sweep> sweeps;                          ///< for each setting
     std::array<Best, measures.size()> best;             ///< by measure
 
     [[nodiscard]] const Best& by(Measure measure) const { return best[std::size_t(measure)]; }

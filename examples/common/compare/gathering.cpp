@@ -20,6 +20,9 @@ namespace {
 
 using Map = PhotonMap<glm::vec3, float>;
 
+/// Ghosts within this are enough for most of a sweep.
+constexpr double margin_of_sweeps = 1.0 / 16;
+
 /// Traces photons [first, end) without tangents.
 [[nodiscard]] Deposits<0> trace_bare(const Bench& bench, const Photons& photons, std::uint64_t first,
                                      std::uint64_t end) {
@@ -78,8 +81,10 @@ template <class MakeEstimate>
 
 template <class K>
 [[nodiscard]] Estimate nearest(const Bench& bench, const Photons& photons, double count, Source source, bool checked) {
+    // Checking would follow what a pixel averages: nothing finer than the pixel, as the kernel sees it.
     const NearestPhotonsOptions options{.count = static_cast<std::size_t>(std::lround(count)),
-                                        .differential_checking = checked};
+                                        .differential_checking = checked,
+                                        .checking = {.resolution = pixel_filter_width<K> * bench.film().pixel()}};
     return gather(bench, photons, reach_of(bench, photons, count), source,
                   [&](const Map& map) { return NearestPhotons(map, options, K{}); });
 }
@@ -165,11 +170,32 @@ Estimate gather_differentials(const Bench& bench, const Photons& photons, double
     return result;
 }
 
-Estimate gather_by_diffusion(const Bench& bench, const Photons& photons, double radius, Source source) {
-    const DiffusionOptions options{.range = radius};
+/// The edges of stored photons.
+struct DiffusionSweep {
+    DiffusionSweep(const Bench& bench, const Photons& photons, double reach_, const DiffusionOptions& options)
+        : reach(reach_), map(bench.with_ghosts(photons.deposits, reach)),
+          estimate(map, options, BiweightKernel{}, bench.threads()) {}
+
+    double reach;
+    Map map;
+    DiffusionEstimate<glm::vec3, float> estimate; // refers to the map
+};
+
+Estimate gather_by_diffusion(const Bench& bench, const Photons& photons, double radius, double diffusivity,
+                             Source source) {
+    const DiffusionOptions options{.range = radius, .diffusivity = diffusivity};
     const double reach = radius + reach_of(bench, photons, double(options.gradient_count));
-    return gather(bench, photons, reach, source,
-                  [&](const Map& map) { return DiffusionEstimate(map, options, BiweightKernel{}, bench.threads()); });
+    if (source == Source::lamp)
+        return gather(bench, photons, reach, source, [&](const Map& map) {
+            return DiffusionEstimate(map, options, BiweightKernel{}, bench.threads());
+        });
+    std::shared_ptr<DiffusionSweep>& sweep = photons.diffusion;
+    if (!sweep || (bench.scene().periodic && sweep->reach < reach))
+        sweep = std::make_shared<DiffusionSweep>(bench, photons, (std::max)(reach, margin_of_sweeps), options);
+    sweep->estimate.retune(options);
+    Estimate result{std::vector<float>(bench.film().pixels()), {}};
+    add_to_picture(bench, sweep->estimate, 1, result.irradiance);
+    return result;
 }
 
 Estimate gather_progressively(const Bench& bench, const Photons& photons, double radius, Source source) {

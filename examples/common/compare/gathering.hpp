@@ -17,8 +17,11 @@ namespace nephroid::examples {
 [[nodiscard]] Estimate gather_differentials(const Bench& bench, const Photons& photons, double smoothing,
                                             Source source);
 
-/// Diffusion-based photon mapping. @param radius  h, world units
-[[nodiscard]] Estimate gather_by_diffusion(const Bench& bench, const Photons& photons, double radius, Source source);
+/// Diffusion-based photon mapping. Edges that have been found are kept for the rest of a sweep.
+/// @param radius  h, world units
+/// @param diffusivity  C
+[[nodiscard]] Estimate gather_by_diffusion(const Bench& bench, const Photons& photons, double radius,
+                                           double diffusivity, Source source);
 
 /// Progressive photon mapping, with statistics at every vertex. @param radius  of the first pass, world units
 [[nodiscard]] Estimate gather_progressively(const Bench& bench, const Photons& photons, double radius, Source source);

@@ -41,9 +41,11 @@ struct Method {
     double (*least)(const Bench&, const Photons&);    ///< bandwidth that makes sense
     double (*most)(const Bench&, const Photons&);
     Estimate (*run)(const Bench&, const Photons&, double bandwidth, Source);
+    std::string setting = {};          ///< of its second parameter, where a user would try several: "C = 0.4"
+    std::vector<Method> settings = {}; ///< the same with others: tried as well, and the best of all counts
 };
 
-/// "k = 50", "s = 6.24", or "nothing to choose".
+/// "k = 50", "h = 0.0124, C = 0.4", or "nothing to choose".
 [[nodiscard]] std::string bandwidth_text(const Method& method, double bandwidth);
 
 /// All there are, photon differential splatting first.

@@ -25,7 +25,7 @@ figcaption, .note { color: var(--soft); font-size: .875rem; }
 img, svg { max-width: 100%; height: auto; } svg { width: 100%; color: var(--ink); }
 figure { margin: 0; }
 .grid { display: grid; gap: 1.5rem; grid-template-columns: repeat(auto-fit, minmax(min(100%, 30rem), 1fr)); }
-.grid.pictures { grid-template-columns: repeat(auto-fit, minmax(min(100%, 20rem), 1fr)); }
+.grid.pictures { grid-template-columns: repeat(auto-fit, minmax(min(100%, 16rem), 1fr)); }
 .pictures img { width: 100%; image-rendering: pixelated; }
 .wide { overflow-x: auto; border: 1px solid var(--line); border-radius: .25rem; margin: .5rem 0; }
 .strip { display: flex; gap: .75rem; padding: .5rem; }
@@ -34,8 +34,9 @@ figure { margin: 0; }
 .strip img + img { margin-top: .25rem; }
 table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums; }
 th, td { padding: .25rem .75rem; text-align: right; white-space: nowrap; }
-th { border-bottom: 1px solid var(--line); } tbody tr:nth-child(even) { background: var(--stripe); }
-th:first-child, td:first-child { text-align: left; position: sticky; left: 0; background: var(--paper); }
+th { border-bottom: 1px solid var(--line); } tr { background: var(--paper); }
+tbody tr:nth-child(even) { background: var(--stripe); }
+th:first-child, td:first-child { text-align: left; position: sticky; left: 0; background: inherit; }
 @media (max-width: 40rem) {
   th:first-child, td:first-child { white-space: normal; min-width: 7rem; }
 }
@@ -167,13 +168,13 @@ code { overflow-wrap: anywhere; }
            escaped(options.command) + "</code></p>\n";
 }
 
-/// Reference, splatting and the first rival, whole.
+/// Reference, splatting of either order and the first rival, whole.
 [[nodiscard]] std::string whole_pictures(const Exhibition& exhibition, const std::vector<Trial>& trials,
                                          std::uint64_t target) {
     std::string html = std::string("<div class=\"grid pictures\">\n<figure>") +
                        image(exhibition.pictures / "reference.png", "reference") +
                        "<figcaption>reference</figcaption></figure>\n";
-    for (const char* id : {"splat", "nearest"})
+    for (const char* id : {"splat-auto", "splat", "nearest"})
         for (const Trial& trial : trials)
             if (trial.method->id == id && trial.wanted == target && trial.sequence == trials.front().sequence) {
                 const std::string title = trial.method->title + ", " + grouped(target) + " " + name_of(trial.sequence) +

@@ -71,7 +71,7 @@ private:
                               Measure measure, const Crop& crop) {
     const Best& best = trial.by(measure);
     const std::string note =
-        bandwidth_text(*trial.method, best.bandwidth) +
+        bandwidth_text(*best.method, best.bandwidth) +
         text(", RMSE %.4f, SSIM %.4f, %.3f s", best.errors.rmse, best.errors.ssim, best.timing.seconds.total());
     const Exhibit made{trial.method->title, note, folder / (stem(trial, measure) + "-crop.png"),
                        folder / (stem(trial, measure) + "-difference.png")};

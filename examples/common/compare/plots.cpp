@@ -5,11 +5,14 @@
 #include "common/image/file.hpp"
 #include "common/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 
 namespace nephroid::examples {
@@ -48,6 +51,40 @@ struct Axes {
     return result + "'";
 }
 
+/// The least and the most of the numbers in one column of the lines.
+struct Extent {
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+};
+[[nodiscard]] Extent extent_of(const std::vector<Line>& lines, std::size_t column) {
+    Extent extent;
+    for (const Line& line : lines) {
+        std::istringstream rows(line.data);
+        for (std::string row; std::getline(rows, row);) {
+            std::istringstream numbers(row);
+            double number = 0;
+            for (std::size_t i = 0; i <= column; ++i)
+                numbers >> number;
+            extent = {(std::min)(extent.least, number), (std::max)(extent.most, number)};
+        }
+    }
+    return extent;
+}
+
+/// An axis as long as its data, where gnuplot's would go on to whole decades, with tics at 1, 2 and 5 if it is short.
+[[nodiscard]] std::string fitted_axis(char axis, const Extent& extent) {
+    const double low = extent.least / 1.2, high = extent.most * 1.2;
+    const std::string name(1, axis);
+    std::string commands = std::string("set ") + name + text("range [%.6g:%.6g]\nset ", low, high) + name + "tics ";
+    if (high / low > 200)
+        return commands + "autofreq\n";
+    std::string tics;
+    for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10)
+        for (const double digit : {1, 2, 5})
+            if (digit * decade >= low && digit * decade <= high)
+                tics += text(tics.empty() ? "%.6g" : ",%.6g", digit * decade);
+    return commands + "(" + tics + ")\n";
+}
+
 /// @return  nothing if there is nothing to be seen
 [[nodiscard]] std::string script(const std::string& name, const Axes& axes, std::vector<Line> lines) {
     std::erase_if(lines, [](const Line& line) { return line.data.empty(); });
@@ -59,7 +96,8 @@ struct Axes {
                        "\nset logscale xy\nset grid lc rgb '#808080' lw 0.3\nset border lw 0.7\n"
                        "set key outside bottom center horizontal maxcols 2 samplen 1.5 font ',11'\nset rmargin 4\n"
                        "set xlabel " +
-                       gnuplot_string(axes.x) + "\nset ylabel " + gnuplot_string(axes.y) + "\n" + axes.more;
+                       gnuplot_string(axes.x) + " offset 0,0.8\nset ylabel " + gnuplot_string(axes.y) + "\n" +
+                       fitted_axis('x', extent_of(lines, 0)) + fitted_axis('y', extent_of(lines, 1)) + axes.more;
     std::string plot = "plot ";
     for (std::size_t i = 0; i < lines.size(); ++i) {
         const std::size_t place = place_of(*lines[i].method);
@@ -121,11 +159,13 @@ struct Axes {
     for (const std::string& id : options.methods) {
         const Method& method = *find_method(id);
         const Trial& trial = *trials_of(trials, id, sequence).front();
-        const double best = trial.by(Measure::relative).bandwidth;
+        const Best& best = trial.by(Measure::relative);
         Line line{&method,
-                  id + (method.symbol.empty() ? std::string() : std::string(", ") + bandwidth_text(method, best)), ""};
-        for (const auto& [bandwidth, errors] : trial.sweep)
-            line.data += row({bandwidth / best, cost_of(errors, measure)});
+                  id + (method.symbol.empty() ? std::string()
+                                              : std::string(", ") + bandwidth_text(*best.method, best.bandwidth)),
+                  ""};
+        for (const auto& [bandwidth, errors] : std::ranges::find(trial.sweeps, best.method, &Sweep::method)->errors)
+            line.data += row({bandwidth / best.bandwidth, cost_of(errors, measure)});
         lines.push_back(std::move(line));
     }
     return script(

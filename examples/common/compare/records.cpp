@@ -11,33 +11,39 @@ namespace nephroid::examples {
 namespace {
 
 /// The measures that a bandwidth is best by: "rel RMSE".
-[[nodiscard]] std::string best_by(const Trial& trial, double bandwidth) {
+[[nodiscard]] std::string best_by(const Trial& trial, const Method& method, double bandwidth) {
     std::string names;
     for (const Measure measure : measures)
-        if (trial.by(measure).bandwidth == bandwidth)
+        if (trial.by(measure).method == &method && trial.by(measure).bandwidth == bandwidth)
             names.append(names.empty() ? "" : " ").append(name_of(measure));
     return names;
 }
 
-[[nodiscard]] const Best& best_with(const Trial& trial, double bandwidth) {
-    return *std::ranges::find(trial.best, bandwidth, &Best::bandwidth);
+[[nodiscard]] const Best& best_with(const Trial& trial, const Method& method, double bandwidth) {
+    return *std::ranges::find_if(
+        trial.best, [&](const Best& best) { return best.method == &method && best.bandwidth == bandwidth; });
+}
+
+/// "h", or "h; C = 0.4": without a comma.
+[[nodiscard]] std::string symbol_of(const Method& method) {
+    return method.symbol + (method.setting.empty() ? "" : "; " + method.setting);
 }
 
 /// Empty where it is not finite, as spreadsheets want it.
 [[nodiscard]] std::string csv_number(double value) { return std::isfinite(value) ? text("%.9g", value) : ""; }
 
-[[nodiscard]] std::string csv_row(const CompareOptions& options, const Trial& trial, double bandwidth,
-                                  const Errors& errors) {
-    const std::string by = best_by(trial, bandwidth);
+[[nodiscard]] std::string csv_row(const CompareOptions& options, const Trial& trial, const Method& method,
+                                  double bandwidth, const Errors& errors) {
+    const std::string by = best_by(trial, method, bandwidth);
     std::string row = options.scene + "," + name_of(trial.sequence) + "," + trial.method->id + "," +
                       std::to_string(trial.wanted) + "," + std::to_string(trial.caustic) + "," +
-                      std::to_string(trial.emitted) + "," + trial.method->symbol + "," + csv_number(bandwidth);
+                      std::to_string(trial.emitted) + "," + symbol_of(method) + "," + csv_number(bandwidth);
     for (const double error : {errors.relative, errors.rmse, errors.ssim, errors.energy})
         row.append(",").append(csv_number(error));
     row.append(",").append(by);
     if (by.empty())
         return row + ",,,,,,,,,\n";
-    const Timing& timing = best_with(trial, bandwidth).timing;
+    const Timing& timing = best_with(trial, method, bandwidth).timing;
     const Seconds& seconds = timing.seconds;
     for (const double value :
          {seconds.trace, seconds.build, seconds.estimate, seconds.total(), timing.least, timing.most})
@@ -54,16 +60,14 @@ namespace {
     return result + "\n" + indent + "]";
 }
 
-[[nodiscard]] JsonMembers json_errors(double bandwidth, const Errors& errors) {
-    return {{"bandwidth", json_number(bandwidth)},
-            {"rel", json_number(errors.relative)},
-            {"clipped RMSE", json_number(errors.rmse)},
-            {"SSIM", json_number(errors.ssim)},
-            {"energy", json_number(errors.energy)}};
+[[nodiscard]] JsonMembers json_errors(const Method& method, double bandwidth, const Errors& errors) {
+    return {{"setting", json_string(method.setting)}, {"bandwidth", json_number(bandwidth)},
+            {"rel", json_number(errors.relative)},    {"clipped RMSE", json_number(errors.rmse)},
+            {"SSIM", json_number(errors.ssim)},       {"energy", json_number(errors.energy)}};
 }
 
 [[nodiscard]] std::string json_best(const Trial& trial, const Best& best, const std::string& indent) {
-    JsonMembers members = json_errors(best.bandwidth, best.errors);
+    JsonMembers members = json_errors(*best.method, best.bandwidth, best.errors);
     const Seconds& seconds = best.timing.seconds;
     members.push_back({"trace seconds", json_number(seconds.trace)});
     members.push_back({"build seconds", json_number(seconds.build)});
@@ -78,9 +82,10 @@ namespace {
 }
 
 [[nodiscard]] std::string json_trial(const Trial& trial, const std::string& indent) {
-    std::vector<std::string> sweep;
-    for (const auto& [bandwidth, errors] : trial.sweep)
-        sweep.push_back(json_object(json_errors(bandwidth, errors), indent + "    "));
+    std::vector<std::string> tried;
+    for (const Sweep& sweep : trial.sweeps)
+        for (const auto& [bandwidth, errors] : sweep.errors)
+            tried.push_back(json_object(json_errors(*sweep.method, bandwidth, errors), indent + "    "));
     JsonMembers best;
     for (const Measure measure : measures)
         best.push_back({name_of(measure), json_best(trial, trial.by(measure), indent + "    ")});
@@ -91,7 +96,7 @@ namespace {
                         {"photons emitted", std::to_string(trial.emitted)},
                         {"bandwidth", json_string(trial.method->symbol + ": " + trial.method->bandwidth)},
                         {"best", json_object(best, indent + "  ")},
-                        {"sweep", json_array(sweep, indent + "  ")}},
+                        {"sweep", json_array(tried, indent + "  ")}},
                        indent);
 }
 
@@ -103,8 +108,9 @@ std::string csv_text(const CompareOptions& options, const std::vector<Trial>& tr
         "best_by,trace_seconds,build_seconds,estimate_seconds,total_seconds,least_seconds,most_seconds,"
         "repeats,photons_per_second,peak_memory\n";
     for (const Trial& trial : trials)
-        for (const auto& [bandwidth, errors] : trial.sweep)
-            csv += csv_row(options, trial, bandwidth, errors);
+        for (const Sweep& sweep : trial.sweeps)
+            for (const auto& [bandwidth, errors] : sweep.errors)
+                csv += csv_row(options, trial, *sweep.method, bandwidth, errors);
     return csv;
 }
 

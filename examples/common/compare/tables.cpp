@@ -38,9 +38,9 @@ namespace {
 [[nodiscard]] Table equal_error_table(const CompareOptions& options, const std::vector<Trial>& trials,
                                       const Trial& target, SequenceKind rivals) {
     Table table;
-    table.title =
-        "Equal error: splatting with " + std::string(name_of(target.sequence)) + ", rivals with " + name_of(rivals);
-    table.caption = "Photons and seconds to match photon differential splatting with " + grouped(target.wanted) + " " +
+    table.title = "Equal error: " + std::string(target.method->id == "splat" ? "" : "second-order ") +
+                  "splatting with " + name_of(target.sequence) + ", rivals with " + name_of(rivals);
+    table.caption = "Photons and seconds to match " + target.method->title + " with " + grouped(target.wanted) + " " +
                     name_of(target.sequence) + " photons";
     table.header = {"method"};
     for (const Measure measure : measures) {
@@ -51,7 +51,7 @@ namespace {
         table.header.push_back(std::string("time, ") + name_of(measure));
     }
     for (const std::string& id : options.methods) {
-        if (id == "splat" && rivals == target.sequence)
+        if (id == target.method->id && rivals == target.sequence)
             continue;
         const auto rival = trials_of(trials, id, rivals);
         std::vector<std::string> row = {find_method(id)->title};
@@ -122,10 +122,11 @@ std::vector<Table> equal_error_tables(const CompareOptions& options, const std::
     if (!is_compared_with_splat(options))
         return tables;
     for (std::size_t own = 0; own < options.sequences.size(); ++own)
-        for (std::size_t rivals = own; rivals < options.sequences.size(); ++rivals) {
-            const Trial* target = trial_at(trials_of(trials, "splat", options.sequences[own]), target_photons(options));
-            tables.push_back(equal_error_table(options, trials, *target, options.sequences[rivals]));
-        }
+        for (std::size_t rivals = own; rivals < options.sequences.size(); ++rivals)
+            for (const char* id : {"splat", "splat-auto"})
+                if (const Trial* target =
+                        trial_at(trials_of(trials, id, options.sequences[own]), target_photons(options)))
+                    tables.push_back(equal_error_table(options, trials, *target, options.sequences[rivals]));
     return tables;
 }
 
@@ -172,7 +173,7 @@ Table best_table(const std::vector<Trial>& trials, Measure measure) {
         const Best& best = trial.by(measure);
         const Seconds& seconds = best.timing.seconds;
         table.rows.push_back({name_of(trial.sequence), grouped(trial.wanted), trial.method->title,
-                              bandwidth_text(*trial.method, best.bandwidth), figure(best.errors.relative),
+                              bandwidth_text(*best.method, best.bandwidth), figure(best.errors.relative),
                               figure(best.errors.rmse), figure(best.errors.ssim),
                               text("%+.3f%%", 100 * best.errors.energy), text("%.3f", seconds.trace),
                               text("%.3f", seconds.build), text("%.3f", seconds.estimate),
@@ -211,7 +212,7 @@ std::string summary(const Trial& trial) {
     for (const Measure measure : measures) {
         const Best& best = trial.by(measure);
         line += text("  %s %.4f (%s, %.3f s)", name_of(measure), value_of(best.errors, measure),
-                     bandwidth_text(*trial.method, best.bandwidth).c_str(), best.timing.seconds.total());
+                     bandwidth_text(*best.method, best.bandwidth).c_str(), best.timing.seconds.total());
     }
     return line;
 }

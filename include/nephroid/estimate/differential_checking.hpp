@@ -4,20 +4,35 @@
 
 #include "nephroid/map/photon_map.hpp"
 
+#include <limits>
+
 namespace nephroid {
 
-/// When to stop adding photons. They are added nearest first, and the estimate with a constant kernel is looked at from
-/// time to time. Once it has grown at `run` looks in a row, or shrunk, and by more in all than chance explains
-/// (`significance` over the square root of the photons at the run's start, of the estimate there), the disk has reached
-/// into other light: the photons from before the run are taken.
+/// When to stop adding photons. They are added nearest first, and the estimate E with a constant kernel is looked at from
+/// time to time. As long as light is even, all looks see the same but for chance: with n photons the standard deviation
+/// of ln E is 1/√n (for unequal fluxes n is (ΣΦ)²/ΣΦ²). So each look says that the logarithm lies within
+/// `significance`/√n of what it sees. Where these intervals no longer have a point in common, the disk has reached into
+/// other light, and the photons of the look before are taken.
 ///
-/// The papers that describe the method leave the rule open ("if a large difference is detected"); this one is
-/// nephroid's.
+/// The papers that describe differential checking leave the rule open ("if a large difference is detected"); this is
+/// Lepski's choice of a bandwidth: the largest whose estimate no smaller one contradicts. It keeps what all looks agree
+/// on, not the look from which the estimates seem to rise or fall: that one would be an extreme of the sequence, chosen
+/// for its error. Of looks at a and b > a photons ln E differs by chance with the variance 1/a − 1/b, less than the
+/// square of 1/√a + 1/√b, which is what parts them: a pair errs with less than the chance of `significance` standard
+/// deviations. All looks together, with the defaults and photons at random, cut even light short in 0.1% of places for
+/// 200 photons, 0.7% for 1000 and 2.4% for 4000, late where they do: rms errors grow by 0.1%, 1% and 7%. Stratified
+/// photons have less noise than that, and are cut less.
+///
+/// No test can tell a detail from an edge. Where the light changes within a pixel, estimates follow it, and a picture
+/// with one eye path in a pixel aliases: give the pixel's size as `resolution`.
+///
+/// Sources: Lepski 1990, "On a problem of adaptive estimation in Gaussian white noise"; intersecting intervals as in
+/// Goldenshluger and Nemirovski 1997, "On spatially adaptive estimation of nonparametric regression".
 struct DifferentialChecking {
-    std::size_t least = 32;  ///< photons at the first look, >= 2
-    double growth = 1.25;    ///< photons at a look over those at the one before, > 1
-    std::size_t run = 2;     ///< looks in a row, >= 1
-    double significance = 3; ///< standard deviations of a random count, >= 0
+    std::size_t least = 32;    ///< photons at the first look, >= 2
+    double growth = 1.25;      ///< photons at a look over those at the one before, > 1
+    double significance = 2.5; ///< half width of an interval, in standard deviations of a random count, > 0
+    double resolution = 0;     ///< photons nearer than this are always taken, world units, >= 0
 };
 
 namespace detail {
@@ -28,61 +43,53 @@ inline void check(const DifferentialChecking& checking, const char* who) {
     if (!(checking.growth > 1))
         invalid_argument(std::string(who) + ": checking.growth is " + text_of(checking.growth) +
                          "; it must be greater than 1");
-    if (checking.run == 0)
-        invalid_argument(std::string(who) + ": checking.run is 0; it must be at least 1");
-    if (!(checking.significance >= 0))
+    if (!(checking.significance > 0))
         invalid_argument(std::string(who) + ": checking.significance is " + text_of(checking.significance) +
+                         "; it must be positive");
+    if (!(checking.resolution >= 0))
+        invalid_argument(std::string(who) + ": checking.resolution is " + text_of(checking.resolution) +
                          "; it must not be negative");
 }
 
-/// Watches estimates as they come in.
-class TrendWatch {
+/// What all looks so far agree on: an interval of ln E.
+class Agreement {
 public:
-    explicit TrendWatch(const DifferentialChecking& checking) : checking_(checking) {}
+    explicit Agreement(double significance) : significance_(significance) {}
 
-    /// Takes the estimate of the first `count` photons. True where a trend has been established, which began after the
-    /// first `before_trend()` photons.
-    [[nodiscard]] bool look(std::size_t count, double estimate) {
-        const int direction = estimate > last_ ? 1 : estimate < last_ ? -1 : 0;
-        if (looks_ == 0 || direction != direction_ || direction == 0) {
-            // The trend, if there is one now, began at the look before.
-            start_ = looks_ == 0 ? estimate : last_;
-            start_count_ = looks_ == 0 ? count : last_count_;
-            direction_ = looks_ == 0 ? 0 : direction;
-            run_ = 0;
-        }
-        run_ += direction_ != 0 ? 1 : 0;
-        ++looks_;
-        last_ = estimate;
-        last_count_ = count;
-        const double chance = checking_.significance / std::sqrt(double(start_count_)) * start_;
-        return run_ >= checking_.run && std::abs(estimate - start_) > chance;
+    /// Takes a look. @param photons  that the estimate is worth, > 0. @return  whether it agrees with all before.
+    [[nodiscard]] bool holds_with(double estimate, double photons) {
+        const double middle = std::log(estimate), half = significance_ / std::sqrt(photons);
+        low_ = (std::max)(low_, middle - half);
+        high_ = (std::min)(high_, middle + half);
+        return low_ <= high_;
     }
 
-    [[nodiscard]] std::size_t before_trend() const { return start_count_; }
-
 private:
-    DifferentialChecking checking_;
-    std::size_t looks_ = 0, run_ = 0, last_count_ = 0, start_count_ = 0;
-    double last_ = 0, start_ = 0;
-    int direction_ = 0;
+    double significance_;
+    double low_ = -std::numeric_limits<double>::infinity(), high_ = std::numeric_limits<double>::infinity();
 };
 
 /// How many of the photons, nearest first, are to be taken: the last of them gives the radius.
 template <Vector3 V, Flux F>
 [[nodiscard]] std::size_t checked_count(const PhotonMap<V, F>& map, std::span<const Neighbour<scalar_t<V>>> sorted,
                                         const DifferentialChecking& checking) {
-    TrendWatch watch(checking);
-    double power = 0; // of all photons but the last
-    std::size_t next = checking.least;
+    const double resolution2 = checking.resolution * checking.resolution;
+    Agreement agreement(checking.significance);
+    double power = 0, power2 = 0; // of all photons but the last, and the sum of their squares
+    std::size_t agreed = sorted.size(), next = checking.least;
     for (std::size_t count = 1; count <= sorted.size(); ++count) {
-        const Neighbour<scalar_t<V>>& farthest = sorted[count - 1];
-        if (count == next || count == sorted.size()) {
-            if (farthest.distance2 > scalar_t<V>(0) && watch.look(count, power / double(farthest.distance2)))
-                return watch.before_trend();
+        const double farthest2 = double(sorted[count - 1].distance2);
+        if (count >= next || count == sorted.size()) {
+            if (farthest2 > resolution2 && power > 0) {
+                if (!agreement.holds_with(power / farthest2, power * power / power2))
+                    return agreed;
+                agreed = count;
+            }
             next = (std::max)(count + 1, std::size_t(std::ceil(double(count) * checking.growth)));
         }
-        power += double(flux_traits<F>::power(map.flux(farthest.slot)));
+        const double flux = double(flux_traits<F>::power(map.flux(sorted[count - 1].slot)));
+        power += flux;
+        power2 += flux * flux;
     }
     return sorted.size();
 }

@@ -78,23 +78,28 @@ public:
         const std::span<Neighbour<T>> room = detail::neighbours<T>(wanted);
         const std::size_t found =
             map_->tree().nearest(relative, room, range2_, [&](std::size_t slot) { return map_->faces(slot, normal); });
-        const T least_radius = least_radius_ > T(0) ? (std::max)(least_radius_, T(4) * std::numeric_limits<T>::epsilon() *
-                                                                                    length(position))
-                                                    : T(0);
+        const T least_radius =
+            least_radius_ > T(0)
+                ? (std::max)(least_radius_, T(4) * std::numeric_limits<T>::epsilon() * length(position))
+                : T(0);
         const auto [neighbours, radius2] = disk(room.first(found), square(least_radius));
         if (!(radius2 > T(0)))
             return sum;
 
         const T scale = T(1) / radius2, thickness2 = square(T(options_.normal_distance)) * radius2;
         const bool slab = options_.normal_distance < 1;
+        const T inside = T(1) - std::numeric_limits<T>::epsilon(); // the rim, as seen from within
+        F rim = flux_traits<F>::zero();
+        std::size_t on_rim = 0;
         for (const Neighbour<T>& n : neighbours) {
-            if (!(n.distance2 < radius2)) // by itself: radius2 * (1 / radius2) may be less than 1
-                continue;
+            const bool is_on_rim = !(n.distance2 < radius2); // by itself: radius2 * (1 / radius2) may be less than 1
+            on_rim += std::size_t(is_on_rim);
             if (slab && !(square(detail::height(*map_, n.slot, relative, normal)) < thickness2))
                 continue;
-            detail::receive(sum, *map_, n.slot, kernel_(n.distance2 * scale) * scale, response);
+            const T weight = kernel_(is_on_rim ? inside : T(n.distance2 * scale)) * scale;
+            detail::receive(is_on_rim ? rim : sum, *map_, n.slot, weight, response);
         }
-        return sum;
+        return on_rim > 1 ? F(sum + rim * T(1 - 1 / double(on_rim))) : sum;
     }
 
 private:

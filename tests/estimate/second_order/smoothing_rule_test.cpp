@@ -95,7 +95,7 @@ TEST_CASE("smoothing rule: bending is finite at folds and points") {
     CHECK(std::isfinite(at_point.trace()));
     CHECK(at_point.determinant() > 0);
     for (const Symmetric2& q : {at_fold, at_point}) {
-        const Symmetric2 s = smoothing_tensor(log_bending(q, {}), true, {});
+        const Symmetric2 s = smoothing_tensor(log_bending(q, {}), {.stratified = true}, {});
         CHECK(s.determinant() > 0);
         CHECK(std::isfinite(s.trace()));
     }
@@ -108,9 +108,9 @@ TEST_CASE("smoothing rule: where the map bends alike in all directions s is the 
         const double q2 = 2 * half_q2, g = 0.02 * q2 * q2;
         const Symmetric2 log_q = log_of(Symmetric2::isotropic(half_q2));
         const double halton = std::pow(1.4 / (g * g), 1.0 / 12), random = std::pow(0.45 / (g * g), 1.0 / 10);
-        check_close(smoothing_tensor(log_q, true, unbounded), Symmetric2::isotropic(halton * halton),
+        check_close(smoothing_tensor(log_q, {.stratified = true}, unbounded), Symmetric2::isotropic(halton * halton),
                     1e-3 * halton * halton);
-        check_close(smoothing_tensor(log_q, false, unbounded), Symmetric2::isotropic(random * random),
+        check_close(smoothing_tensor(log_q, {}, unbounded), Symmetric2::isotropic(random * random),
                     1e-3 * random * random);
     }
 }
@@ -119,7 +119,7 @@ TEST_CASE("smoothing rule: where the map bends alike in all directions s is the 
 TEST_CASE("smoothing rule: area lights have wider footprints of the same shape and the same bounds") {
     Draws draw(5);
     for (int i = 0; i < 100; ++i) {
-        const Symmetric2 log_q = log_of(any_bending(draw)), s = smoothing_tensor(log_q, false, unbounded);
+        const Symmetric2 log_q = log_of(any_bending(draw)), s = smoothing_tensor(log_q, {}, unbounded);
         for (const bool stratified : {true, false}) {
             const double wider = (stratified ? 1.2 : 1.5) / 0.923;
             check_close(area_smoothing_tensor(log_q, stratified, unbounded), wider * wider * s, 1e-12 * s.trace());
@@ -134,7 +134,7 @@ TEST_CASE("smoothing rule: area lights have wider footprints of the same shape a
 TEST_CASE("smoothing rule: the footprint is wide where the map is straight and narrow where it bends") {
     Draws draw(3);
     for (int i = 0; i < 300; ++i) {
-        const Symmetric2 q = any_bending(draw), s = smoothing_tensor(log_of(q), i % 2 == 0, unbounded);
+        const Symmetric2 q = any_bending(draw), s = smoothing_tensor(log_of(q), {.stratified = i % 2 == 0}, unbounded);
         const Principal2 axes(q);
         // S Q is a multiple of one: with vectors, S (Q v) = c v.
         const double c = 0.5 * (s.xx * q.xx + 2 * s.xy * q.xy + s.yy * q.yy); // half of tr(S Q)
@@ -174,13 +174,13 @@ TEST_CASE("smoothing rule: bounds hold for any bend") {
     for (int i = 0; i < 1000; ++i) {
         const double angle = draw.in(0, 6.3), c = std::cos(angle), s = std::sin(angle);
         const Symmetric2 q = congruent({{c, s}, {-s, c}}, {std::exp(draw.in(-30, 3)), 0, std::exp(draw.in(-30, 3))});
-        const Principal2 shape(smoothing_tensor(log_bending(q, bounds), i % 2 == 0, bounds));
+        const Principal2 shape(smoothing_tensor(log_bending(q, bounds), {.stratified = i % 2 == 0}, bounds));
         CHECK(shape.smaller >= 2 * 2 * (1 - 1e-9));
         CHECK(shape.larger <= 32 * 32 * (1 + 1e-9));
         CHECK(shape.larger <= 8 * 8 * shape.smaller * (1 + 1e-9));
     }
     // The least s bounds the area, not one radius.
-    const Principal2 least(smoothing_tensor(log_bending({1, 0, 0.25}, bounds), true, bounds));
+    const Principal2 least(smoothing_tensor(log_bending({1, 0, 0.25}, bounds), {.stratified = true}, bounds));
     CHECK(least.larger * least.smaller == doctest::Approx(std::pow(5, 4)).epsilon(1e-12));
     CHECK(least.larger == doctest::Approx(2 * 25).epsilon(1e-12));
 }
@@ -189,7 +189,7 @@ TEST_CASE("smoothing rule: bounds hold for any bend") {
 TEST_CASE("smoothing rule: a bound along a direction keeps its conjugate and sets the reach") {
     Draws draw(8);
     for (int i = 0; i < 200; ++i) {
-        const Symmetric2 s = smoothing_tensor(log_of(any_bending(draw)), true, unbounded);
+        const Symmetric2 s = smoothing_tensor(log_of(any_bending(draw)), {.stratified = true}, unbounded);
         const double angle = draw.in(0, 6.3);
         const Plane2 n{std::cos(angle), std::sin(angle)}, touch = s(n);
         const double reach = std::sqrt(inner(n, touch)), most = draw.in(0.1, 0.9) * reach;

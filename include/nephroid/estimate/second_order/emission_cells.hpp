@@ -7,6 +7,9 @@
 #include "nephroid/estimate/second_order/path_derivatives.hpp"
 #include "nephroid/transport/walk.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -47,16 +50,48 @@ struct TracedPhoton : PathSample {
     }
 };
 
+/// Some photons of a light, whatever they carry besides: what is made of them is compiled once. They must outlive it.
+class PathSamples {
+public:
+    PathSamples() = default;
+    /// @param photons  a random-access range of TracedPhoton, or of what else is a PathSample
+    template <class Photons>
+        requires(!std::same_as<Photons, PathSamples>)
+    explicit PathSamples(const Photons& photons) {
+        samples_.reserve(photons.size());
+        for (std::size_t i = 0; i < photons.size(); ++i)
+            samples_.push_back(&photons[i]);
+    }
+    void add(const PathSample& photon) { samples_.push_back(&photon); }
+    [[nodiscard]] std::size_t size() const { return samples_.size(); }
+    [[nodiscard]] const PathSample& operator[](std::size_t i) const { return *samples_[i]; }
+
+    /// Where the first of them were emitted.
+    [[nodiscard]] std::vector<std::array<double, 2>> places(std::size_t count) const {
+        std::vector<std::array<double, 2>> result;
+        result.reserve(count);
+        for (std::size_t i = 0; i < count; ++i)
+            result.push_back(samples_[i]->sample.at);
+        return result;
+    }
+
+private:
+    std::vector<const PathSample*> samples_;
+};
+
 /// A grid over the square of samples that a light draws from, and the photons in each cell.
 class EmissionCells {
 public:
-    static constexpr std::size_t photons_per_cell = 16;
+    static constexpr double photons_per_cell = 16;
 
     /// @param samples  in the order of the photons
     /// @param aspect   length of the domain along the first sample over that along the second
     /// @param repeats  whether opposite borders are neighbours
-    EmissionCells(std::span<const std::array<double, 2>> samples, double aspect, bool repeats) : repeats_(repeats) {
-        const double cells = double((std::max)(samples.size(), photons_per_cell)) / double(photons_per_cell);
+    /// @param per_cell  photons in a cell, averaged over the whole square, > 0
+    EmissionCells(std::span<const std::array<double, 2>> samples, double aspect, bool repeats,
+                  double per_cell = photons_per_cell)
+        : repeats_(repeats) {
+        const double cells = (std::max)(double(samples.size()) / per_cell, 1.0);
         const double most = cells;
         columns_ = std::size_t(std::lround(std::clamp(std::sqrt(cells * aspect), 1.0, most)));
         rows_ = std::size_t(std::lround(std::clamp(cells / double(columns_), 1.0, most)));

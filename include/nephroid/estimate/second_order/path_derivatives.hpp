@@ -33,6 +33,15 @@ struct PathDerivatives {
     std::array<Space3, 4> third;  ///< T: F_uuu, F_uuv, F_uvv, F_vvv; 0 where there were too few photons for them
 };
 
+/// J at a displacement from where the derivatives are.
+[[nodiscard]] inline std::array<Space3, 2> tangents_at(const PathDerivatives& map, Plane2 at) {
+    const double xx = 0.5 * at.x * at.x, xy = at.x * at.y, yy = 0.5 * at.y * at.y;
+    const auto& [h_uu, h_uv, h_vv] = map.second;
+    const auto& [t_uuu, t_uuv, t_uvv, t_vvv] = map.third;
+    return {map.first[0] + (at.x * h_uu + at.y * h_uv) + (xx * t_uuu + (xy * t_uuv + yy * t_uvv)),
+            map.first[1] + (at.x * h_uv + at.y * h_vv) + (xx * t_uuv + (xy * t_uvv + yy * t_vvv))};
+}
+
 /// Second derivatives in other axes: `axes` takes the other frame's coordinates to those that `second` is by.
 [[nodiscard]] inline std::array<Space3, 3> turned(const std::array<Space3, 3>& second, const PlaneMatrix& axes) {
     const auto along = [&](Plane2 a, Plane2 b) {

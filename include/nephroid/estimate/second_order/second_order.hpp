@@ -30,8 +30,8 @@ public:
         SecondOrder policy{};
         std::optional<double> smoothing{};
         bool stratified = false;
-        double second_moment = 0.125; ///< of the kernel
-        double photons = 0;           ///< emitted in all, N_e
+        double second_moment = 0.125;                                   ///< of the kernel
+        double photons = 0;                                             ///< emitted in all, N_e
         double largest_reach = std::numeric_limits<double>::infinity(); ///< of a footprint that is not bounded
     };
 
@@ -39,7 +39,6 @@ public:
     template <Flux F, std::size_t N, class E>
     SecondOrderFootprints(std::span<const TracedPhoton<V, F, N>> pilot, const Options& options, E& executor)
         : options_(options) {
-        constexpr std::size_t fewest = 4 * EmissionCells::photons_per_cell;
         struct OfOneLight {
             Origin origin;
             std::span<const TracedPhoton<V, F, N>> all;
@@ -60,8 +59,6 @@ public:
         }
         fields_.reserve(by_light.size());
         for (const OfOneLight& photons : by_light) {
-            if (photons.size() < fewest)
-                continue;
             const FieldOptions field{.smoothing = options.smoothing,
                                      .stratified = options.stratified,
                                      .repeats = options.policy.domain_repeats,

@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+/// @file  What the photons of one sheet say of one another: derivatives, shapes and borders over a light's domain.
+#pragma once
+
+#include "nephroid/estimate/second_order/emission_sheets.hpp"
+#include "nephroid/estimate/second_order/roughness.hpp"
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace nephroid {
+
+/// What chooses the footprints.
+struct FieldOptions {
+    std::optional<double> smoothing{}; ///< s for all photons; nothing: chosen for each by `smoothing_tensor`
+    bool stratified = false;           ///< whether the photons come from a stratified sequence
+    bool repeats = false;              ///< the scene repeats over the light's domain
+    double scale = 1;                  ///< of S: the biweight's second moment over the kernel's own
+    double photons = 0;                ///< emitted into this domain in all; those that the field is made from are fewer
+    SmoothingBounds bounds{};
+};
+
+/// What the field says about one photon, in its own emission frame.
+struct FieldSample {
+    Symmetric2 shape;             ///< S
+    Plane2 divergence;            ///< ∂_a S_ab
+    std::array<Space3, 3> second; ///< H
+};
+
+/// Shapes of footprints and second derivatives over one sheet, on a grid of cells.
+class SheetField {
+public:
+    /// @param all     photons of the light, emitted with smoothing 1, whose samples are two numbers
+    /// @param sheets  theirs
+    /// @param sheet   one of those
+    /// @param run     runs the fits; the field does not depend on it
+    SheetField(const PathSamples& all, const EmissionSheets& sheets, const EmissionSheet& sheet,
+               const FieldOptions& options, const TaskRunner& run)
+        : options_(options), density_{options.stratified, sheet.share},
+          grid_(places_of(all, sheet), sheets.aspect(), options.repeats,
+                EmissionCells::photons_per_cell * double(sheet.photons.size()) / (double(all.size()) * sheet.share)),
+          slots_(grid_.size(), nowhere) {
+        PathSamples photons;
+        for (const std::uint32_t i : sheet.photons)
+            photons.add(all[i]);
+        for (std::size_t square = 0; square < grid_.size(); ++square)
+            if (!grid_.photons(square).empty()) {
+                slots_[square] = std::uint32_t(cells_.size());
+                cells_.push_back({.square = square});
+            }
+        const auto for_each_cell = [&](const std::function<void(Cell&)>& work) {
+            constexpr std::size_t cells_per_task = 32;
+            const auto work_on = [&](std::size_t task) {
+                const std::size_t end = (std::min)(cells_.size(), (task + 1) * cells_per_task);
+                for (std::size_t cell = task * cells_per_task; cell < end; ++cell)
+                    work(cells_[cell]);
+            };
+            if (cells_.size() <= cells_per_task)
+                work_on(0); // many sheets are small
+            else
+                run((cells_.size() + cells_per_task - 1) / cells_per_task, work_on);
+        };
+        for_each_cell([&](Cell& cell) {
+            choose_frame(cell, photons);
+            for (const std::uint32_t i : grid_.photons(cell.square))
+                cell.is_next_to_border = cell.is_next_to_border || sheets.is_next_to_border(sheet.photons[i]);
+        });
+        for_each_cell([&](Cell& cell) { fit(cell, photons); });
+        if (options_.smoothing) {
+            for (Cell& cell : cells_)
+                cell.shape = Symmetric2::isotropic(square(*options_.smoothing));
+            return;
+        }
+        find_borders();
+        for_each_cell([&](Cell& cell) { choose_shape(cell); });
+    }
+
+    /// Nothing where the photons say nothing: there are too few of them.
+    [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame) const {
+        const Cell* here = cell_in(grid_.cell_of(sample));
+        if (here == nullptr || !here->is_resolved)
+            return std::nullopt;
+        FieldSample result{};
+        std::array<Symmetric2, 2> by_sample; // ∂S by the two samples
+        for (const Node& node : nodes_about(sample)) {
+            const Cell* there = cell_in(node.square);
+            const Cell& cell = there != nullptr && there->is_resolved ? *there : *here;
+            // Tensors turn with the axes that they are by.
+            const Symmetric2 shape = congruent(frame.axes_of(cell.frame), cell.shape);
+            result.shape += node.weight * shape;
+            for (std::size_t axis = 0; axis < 2; ++axis)
+                by_sample[axis] += node.slope[axis] * shape;
+            const auto second = turned(cell.map.second, cell.frame.axes_of(frame));
+            for (std::size_t i = 0; i < second.size(); ++i)
+                result.second[i] += node.weight * second[i];
+        }
+        const PlaneMatrix samples_by_place = (frame.axes_of(here->frame) * here->metric).inverse();
+        const auto derivative = [&](Plane2 by_place) { // along an axis, which is so many samples away
+            Symmetric2 d = by_place.x * by_sample[0];
+            d += by_place.y * by_sample[1];
+            return d;
+        };
+        const Symmetric2 du = derivative(samples_by_place.first), dv = derivative(samples_by_place.second);
+        result.divergence = {du.xx + dv.xy, du.xy + dv.yy};
+        return result;
+    }
+
+private:
+    static constexpr std::uint32_t nowhere = (std::numeric_limits<std::uint32_t>::max)();
+    static constexpr double least_border_radius = 3;
+
+    /// A square of the grid with photons in it.
+    struct Cell {
+        std::size_t square;
+        EmissionFrame frame{}; ///< of the photon nearest to the middle
+        std::array<double, 2> frame_sample{};
+        PlaneMatrix metric{};  ///< steps between samples to displacements in the frame
+        PathDerivatives map{}; ///< at the middle
+        Symmetric2 log_q{}, shape{};
+        bool has_frame = false, is_resolved = false;
+        bool is_next_to_border = false;                                   ///< which lies within it
+        double border_distance = std::numeric_limits<double>::infinity(); ///< in the frame's units
+        Plane2 border_direction{};                                        ///< unit, or 0 where the border is all around
+    };
+
+    /// A corner of the square of cell middles about a sample.
+    struct Node {
+        std::size_t square;
+        double weight;               ///< bilinear
+        std::array<double, 2> slope; ///< of the weight, by the samples
+    };
+
+    [[nodiscard]] static std::vector<std::array<double, 2>> places_of(const PathSamples& all,
+                                                                      const EmissionSheet& sheet) {
+        std::vector<std::array<double, 2>> places;
+        places.reserve(sheet.photons.size());
+        for (const std::uint32_t i : sheet.photons)
+            places.push_back(all[i].sample.at);
+        return places;
+    }
+
+    [[nodiscard]] const Cell* cell_in(std::size_t square) const {
+        return slots_[square] == nowhere ? nullptr : &cells_[slots_[square]];
+    }
+
+    void choose_frame(Cell& cell, const PathSamples& photons) {
+        const auto inside = grid_.photons(cell.square);
+        const auto middle = grid_.middle(cell.square);
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t i : inside) {
+            if (!photons[i].frame.is_regular())
+                continue;
+            const Plane2 away = grid_.step_between(middle, photons[i].sample.at);
+            const Plane2 in_cells{away.x * double(grid_.columns()), away.y * double(grid_.rows())};
+            if (inner(in_cells, in_cells) < nearest) {
+                nearest = inner(in_cells, in_cells);
+                cell.frame = photons[i].frame;
+                cell.frame_sample = photons[i].sample.at;
+            }
+        }
+        SampleMetric metric;
+        for (const std::uint32_t i : inside)
+            metric.add(grid_.step_between(cell.frame_sample, photons[i].sample.at), cell.frame.to(photons[i].frame));
+        if (const auto m = metric.solve(); m && std::isfinite(nearest)) {
+            cell.metric = *m;
+            cell.has_frame = true;
+        }
+    }
+
+    /// Fits the derivatives to the photons of this cell and those around it, weighted by a biweight about its middle.
+    void fit(Cell& cell, const PathSamples& photons) {
+        if (!cell.has_frame)
+            return;
+        const auto middle = grid_.middle(cell.square);
+        const Plane2 to_middle = cell.metric(grid_.step_between(cell.frame_sample, middle));
+        const double cell_area = std::abs(cell.metric.determinant()) / double(grid_.size());
+        const double reach2 = 1.44 * cell_area; // 1.2 cells
+        std::vector<TangentSample> here;
+        PathFit fit;
+        for_each_around(cell, [&](const Cell& other, double) {
+            for (const std::uint32_t i : grid_.photons(other.square)) {
+                const PathSample& photon = photons[i];
+                if (!photon.frame.is_regular())
+                    continue;
+                // A repeated domain's photons lie where a step leads to, not where they were emitted.
+                const Plane2 at = grid_.repeats() ? cell.metric(grid_.step_between(middle, photon.sample.at))
+                                                  : cell.frame.to(photon.frame) + -1.0 * to_middle;
+                const double rest = 1 - inner(at, at) / reach2;
+                if (!(rest > 0))
+                    continue;
+                const auto& tangents = photon.tangents;
+                if (!std::isfinite(inner(tangents[0], tangents[0]) + inner(tangents[1], tangents[1])))
+                    continue; // will be an invalid splat, and must not be its neighbours' end
+                const PlaneMatrix axes = photon.frame.axes_of(cell.frame);
+                const TangentSample sample{at,
+                                           {axes.first.x * tangents[0] + axes.first.y * tangents[1],
+                                            axes.second.x * tangents[0] + axes.second.y * tangents[1]}};
+                fit.add(sample.at, sample.tangents, rest * rest);
+                if (&other == &cell)
+                    here.push_back(sample);
+            }
+        });
+        cell.is_resolved = fit.solve(cell.map);
+        if (!cell.is_resolved)
+            return;
+        const Symmetric2 q = bending(cell.map, options_.photons, density_.share, roughness(cell.map, here));
+        cell.log_q = log_bending(q, options_.bounds);
+        cell.is_resolved = cell.is_resolved && std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);
+    }
+
+    /// Calls visit(cell, weight) for a cell and those of the eight around it that have photons; weights are those of a
+    /// (1 2 1)² blur.
+    template <class Visit>
+    void for_each_around(const Cell& cell, Visit&& visit) const {
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (const auto square = grid_.neighbour(cell.square, dx, dy))
+                    if (const Cell* other = cell_in(*square))
+                        visit(*other, double((2 - std::abs(dx)) * (2 - std::abs(dy))));
+    }
+
+    [[nodiscard]] Plane2 displacement(const Cell& from, const Cell& to) const {
+        return from.metric(grid_.step_between(grid_.middle(from.square), grid_.middle(to.square)));
+    }
+
+    /// The distance and direction from each cell to where the sheet ends: to squares without its photons, or beyond the
+    /// domain. Passed on from cell to cell, no further than footprints reach.
+    void find_borders() {
+        std::vector<std::uint32_t> border(cells_.size(), nowhere), pending;
+        for (std::uint32_t index = 0; index < cells_.size(); ++index) {
+            Cell& cell = cells_[index];
+            if (!cell.is_resolved)
+                continue;
+            Plane2 outwards{};
+            bool ends = cell.is_next_to_border;
+            for (int dy = -1; dy <= 1; ++dy)
+                for (int dx = -1; dx <= 1; ++dx) {
+                    const auto square = grid_.neighbour(cell.square, dx, dy);
+                    const Cell* other = square ? cell_in(*square) : nullptr;
+                    if (other != nullptr && other->is_resolved)
+                        continue;
+                    ends = true;
+                    const Plane2 step = cell.metric({dx / double(grid_.columns()), dy / double(grid_.rows())});
+                    outwards = outwards + (1 / std::sqrt(inner(step, step))) * step;
+                }
+            if (!ends)
+                continue;
+            cell.border_distance = 0.5 * std::sqrt(std::abs(cell.metric.determinant()) / double(grid_.size()));
+            cell.border_direction = unit(outwards);
+            border[index] = index;
+            pending.push_back(index);
+        }
+        for (std::size_t next = 0; next < pending.size(); ++next) { // a queue: nearer borders arrive first, or replace
+            const std::uint32_t from = border[pending[next]];
+            for_each_around(cells_[pending[next]], [&](const Cell& other, double) {
+                const std::uint32_t index = slots_[other.square];
+                if (!other.is_resolved || index == pending[next])
+                    return;
+                const Plane2 away = displacement(other, cells_[from]);
+                const double distance = cells_[from].border_distance + std::sqrt(inner(away, away));
+                if (!(distance < (1 - 1e-9) * other.border_distance) || distance > options_.bounds.largest_radius)
+                    return;
+                cells_[index].border_distance = distance;
+                cells_[index].border_direction = unit(away);
+                border[index] = from;
+                pending.push_back(index);
+            });
+        }
+    }
+
+    [[nodiscard]] static Plane2 unit(Plane2 v) {
+        const double norm = std::sqrt(inner(v, v));
+        return norm > 1e-6 ? (1 / norm) * v : Plane2{};
+    }
+
+    void choose_shape(Cell& cell) {
+        if (!cell.is_resolved)
+            return;
+        double weights = 0;
+        Symmetric2 blurred{};
+        for_each_around(cell, [&](const Cell& other, double weight) {
+            if (!other.is_resolved)
+                return;
+            blurred += weight * congruent(cell.frame.axes_of(other.frame), other.log_q);
+            weights += weight;
+        });
+        cell.shape = options_.scale * smoothing_tensor((1 / weights) * blurred, density_, options_.bounds);
+
+        const Plane2 n = cell.border_direction;
+        if (!std::isfinite(cell.border_distance))
+            return;
+        // Where the map widens towards the border, what spills over it lands further out than one would think.
+        const auto& h = cell.map.second;
+        const Plane2 widening = detail::EmissionPullback(cell.map.first)((n.x * n.x) * h[0] +
+                                                                         ((2 * n.x * n.y) * h[1] + (n.y * n.y) * h[2]));
+        const double reach = (std::max)(least_border_radius,
+                                        cell.border_distance *
+                                            std::clamp(1 + 0.5 * cell.border_distance * inner(n, widening), 1.0, 4.0));
+        if (inner(n, n) > 0) {
+            cell.shape = bounded_along(cell.shape, n, reach);
+        } else {
+            const double most = options_.scale * square(reach);
+            const Principal2 principal(cell.shape);
+            cell.shape = principal.with((std::min)(principal.larger, most), (std::min)(principal.smaller, most));
+        }
+    }
+
+    [[nodiscard]] std::array<Node, 4> nodes_about(const std::array<double, 2>& sample) const {
+        struct Axis {
+            std::array<std::size_t, 2> at;
+            double share;
+        };
+        const auto along = [this](double u, std::size_t count) {
+            const double place = u * double(count) - 0.5, low = std::floor(place);
+            const auto bring_back = [&](double i) {
+                if (grid_.repeats())
+                    return std::size_t(i < 0 ? i + double(count) : i >= double(count) ? i - double(count) : i);
+                return std::size_t(std::clamp(i, 0.0, double(count) - 1));
+            };
+            return Axis{{bring_back(low), bring_back(low + 1)}, place - low};
+        };
+        const Axis x = along(sample[0], grid_.columns()), y = along(sample[1], grid_.rows());
+        std::array<Node, 4> nodes;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const bool right = i & 1, up = i & 2;
+            const double wx = right ? x.share : 1 - x.share, wy = up ? y.share : 1 - y.share;
+            nodes[i] = {y.at[up] * grid_.columns() + x.at[right],
+                        wx * wy,
+                        {(right ? wy : -wy) * double(grid_.columns()), (up ? wx : -wx) * double(grid_.rows())}};
+        }
+        return nodes;
+    }
+
+    FieldOptions options_;
+    PhotonDensity density_;
+    EmissionCells grid_;
+    std::vector<std::uint32_t> slots_; // of each square: its cell, or nowhere
+    std::vector<Cell> cells_;
+};
+
+} // namespace nephroid
