@@ -9,10 +9,11 @@
 #include "nephroid/relaxation/relax.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <limits>
 #include <ostream>
-#include <variant>
+#include <vector>
 
 namespace nephroid::examples::relaxation {
 
@@ -67,6 +68,28 @@ public:
         return least;
     }
 
+    /// The least cost of finding all photons' neighbours, as an iteration does.
+    [[nodiscard]] Cost cost_of_neighbours(std::size_t count) {
+        using Cloud = PhotonCloud<glm::vec3, Color>;
+        const auto access = photon_access(&StoredPhoton::position, &StoredPhoton::normal, &StoredPhoton::flux);
+        const Cloud cloud(photons_, access, options_->relaxation.cos_same_surface, "relaxation --timing");
+        std::vector<float> radius(cloud.tree().slots()); // found the first time, and guessed right from then on
+        Cost least;
+        for (int tries = 0; tries < 5; ++tries) {
+            Stopwatch stopwatch;
+            const std::clock_t start = std::clock();
+            nephroid::detail::for_each_leaf<Neighbourhood<Cloud>>(
+                cloud.tree(), *threads_, [&](auto& neighbourhood, std::uint32_t leaf) {
+                    neighbourhood.for_each(cloud, leaf, count, radius, [&](std::size_t slot, auto found) {
+                        radius[slot] = found.empty() ? 0 : std::sqrt(found.back().distance2);
+                    });
+                });
+            least.processor = (std::min)(least.processor, static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+            least.wall = (std::min)(least.wall, stopwatch.lap());
+        }
+        return least;
+    }
+
     /// The most memory that a run has taken; 0 where the system does not tell.
     [[nodiscard]] double bytes() const { return bytes_; }
 
@@ -99,6 +122,8 @@ void print_timing(std::ostream& out, const Options& options, ThreadExecutor& thr
     const Cost piloted = bench.cost_of(0, false, true);
     line("pilot densities", piloted, cloud, 1);
     line("one iteration", bench.cost_of(iterations, false, pilot), pilot ? piloted : cloud, iterations);
+    line("  of it, neighbours", bench.cost_of_neighbours((pilot ? 2 : 1) * (options.relaxation.neighbours + 1)), {0, 0},
+         1);
     (void)bench.cost_of(1, true, pilot);
     if (bench.bytes() > 0)
         out << text("  memory: %.0f bytes per photon at its peak, besides the caller's photons\n",

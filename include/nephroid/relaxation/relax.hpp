@@ -6,7 +6,7 @@
 /// ```cpp
 /// nephroid::ThreadExecutor threads;
 /// nephroid::relax(photons, nephroid::photon_access(&MyPhoton::position, &MyPhoton::normal, &MyPhoton::flux),
-///                 nephroid::RelaxationOptions{.iterations = 20}, threads);
+///                 nephroid::RelaxationOptions::keeping_density(), threads);
 /// ```
 #pragma once
 
