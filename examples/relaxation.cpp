@@ -4,6 +4,7 @@
 #include "common/image/file.hpp"
 #include "common/relaxation/pictures.hpp"
 #include "common/relaxation/table.hpp"
+#include "common/relaxation/timing.hpp"
 
 #include <exception>
 #include <iostream>
@@ -15,6 +16,10 @@ int main(int argc, char** argv) {
         if (!options)
             return 0;
         nephroid::ThreadExecutor threads(options->threads);
+        if (options->timing) {
+            relaxation::print_timing(std::cout, *options, threads);
+            return 0;
+        }
         const relaxation::Subject subject = relaxation::make_subject(*options, threads);
         std::filesystem::create_directories(options->output);
         require_writable(options->output / "table.csv");

@@ -92,6 +92,26 @@ TEST_CASE("relaxation: options are read, lists of neighbours come in order and o
     CHECK(options->output == "relaxation-ring");
 }
 
+TEST_CASE("relaxation: a map may keep its density, be looked at by another kernel and by several eyes per pixel") {
+    const auto options = read({"ring", "--keep-density", "on", "--rho", "0.2", "--iterations", "7", "--kernel",
+                               "biweight", "--samples", "4", "--flux-diffusion", "conserving"});
+    REQUIRE(options.has_value());
+    CHECK(options->relaxation.pilot_neighbours == 150);
+    CHECK(options->relaxation.neighbours == 12);
+    CHECK(options->relaxation.over_relaxation == 1);
+    CHECK(options->relaxation.rho == 0.2);
+    CHECK(options->relaxation.iterations == 7);
+    CHECK(options->relaxation.flux_diffusion == FluxDiffusion::conserving);
+    CHECK(options->kernel == LookKernel::biweight);
+    CHECK(options->samples == 4);
+    const auto paper = read({"ring"});
+    CHECK(paper->relaxation.pilot_neighbours == 0);
+    CHECK(paper->relaxation.neighbours == 6);
+    CHECK(paper->kernel == LookKernel::epanechnikov);
+    CHECK_FALSE(paper->timing);
+    CHECK(read({"--timing", "--photons", "1e4"})->timing); // of no subject
+}
+
 TEST_CASE("relaxation: what cannot be done is refused with a line that names the option") {
     const auto message = [](std::initializer_list<const char*> arguments) -> std::string {
         try {
@@ -110,6 +130,9 @@ TEST_CASE("relaxation: what cannot be done is refused with a line that names the
     CHECK(message({"ring", "--rho", "nan"}).find("rho") != std::string::npos);
     CHECK(message({"ring", "--spectrum", "1", "0", "0", "1"}).find("--spectrum") != std::string::npos);
     CHECK(message({"ring", "--iterations", "1e9"}).find("--iterations") != std::string::npos);
+    CHECK(message({"ring", "--samples", "0"}).find("--samples") != std::string::npos);
+    CHECK(message({"ring", "--kernel", "cone"}).find("'cone'") != std::string::npos);
+    CHECK(message({}).find("name a subject") == 0);
     CHECK(message({"ring", "--constrain", "perhaps"}).find("'perhaps'") != std::string::npos);
 
     ThreadExecutor threads(1);

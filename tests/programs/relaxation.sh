@@ -58,6 +58,13 @@ done
 cmp t1/after-20.png t3/after-20.png && cmp t1/dots-after.png t3/dots-after.png ||
     fail "the pictures depend on the number of threads"
 
+"$relaxation" --timing --photons 2000 >timing.txt 2>errors.txt || fail "$(cat errors.txt)"
+grep -q "feature search" timing.txt && grep -q "one iteration" timing.txt || fail "no timing: $(cat timing.txt)"
+# shellcheck disable=SC2086
+"$relaxation" ring $quick --keep-density on --kernel biweight --samples 4 --output kept >kept.txt 2>errors.txt ||
+    fail "$(cat errors.txt)"
+[ -s kept/after-20.png ] || fail "no kept/after-20.png"
+
 # A refusal is one line on stderr and a status: 2 for what makes no sense, 1 for what does not work out.
 refuses() { # status, words in the message, arguments
     expected=$1 words=$2
@@ -75,6 +82,8 @@ refuses 1 "no-such.png" no-such.png
 refuses 1 "broken.png" broken.png
 refuses 1 "broken.glb" broken.glb
 refuses 2 "nowhere" nowhere
+refuses 2 "name a subject"
+refuses 2 "samples" ring --samples 0
 refuses 2 "photons" ring --photons 0
 refuses 2 "neighbours" ring --neighbours 20,few
 refuses 2 "alpha" ring --features 0.9 0.1

@@ -159,6 +159,11 @@ TEST_CASE("PowerSpectrum: a Hann window keeps a cut from spreading the peaks") {
     CHECK(plain.band_power(3, 14) > 0.01);
     CHECK(hann.band_power(3, 14) < 1e-3 * plain.band_power(3, 14));
 
+    // The window's own peak, where four in nine of the weights' square sum lie at f = 0, is not low-frequency noise.
+    CHECK(hann.power(1, 0) > 1);
+    CHECK(hann.band_power(0.5, 2.5) < 1e-3);
+    CHECK(std::isnan(hann.band_power(0.5, 1.5)));
+
     PowerSpectrum white(40, SpectralWindow::hann);
     for (std::uint64_t set = 0; set < 8; ++set)
         white.add(random_points(400, 200 + set));

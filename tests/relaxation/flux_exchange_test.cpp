@@ -88,7 +88,9 @@ TEST_CASE("flux diffusion: the exchange keeps the total to rounding and the weig
         const double rounding = 2000 * 7 * 20 * 2.3e-16;
         CHECK(std::abs(total(conserved) - total(start)) <= rounding);
         CHECK(std::abs(total(averaged) - total(start)) > 1000 * rounding);
-        CHECK(std::abs(total(averaged) / total(start) - 1) < 0.02);
+        const double gained = total(averaged) / total(start) - 1; // 0.70% without constraints, 0.91% with them
+        CHECK(gained > 0.006);
+        CHECK(gained < 0.01);
     }
 }
 
@@ -129,7 +131,7 @@ TEST_CASE("flux diffusion: none changes nothing and a photon alone keeps its flu
     }
 }
 
-// Left of 0.5 flux 1, right of it 10. Where the features are known a sixth of what else would comes across
+// Left of 0.5 flux 1, right of it 10: below α, so that nothing passes where a photon is held fully.
 TEST_CASE("flux diffusion: does not cross an edge of flux") {
     const auto lit = [](bool constrain) {
         auto photons = random_floor(4000, 54);
@@ -141,8 +143,18 @@ TEST_CASE("flux diffusion: does not cross an edge of flux") {
             crossed += photon.position.x < 0.5 ? photon.flux - 1 : 0;
         return crossed;
     };
-    CHECK(lit(true) < 0.25 * lit(false));
+    CHECK(lit(true) == 0);
     CHECK(lit(false) > 100);
+}
+
+TEST_CASE("flux diffusion: positions keep their bits however far they are from the origin") {
+    auto photons = flickering_floor(500, 56);
+    for (Stored& photon : photons)
+        photon.position = 1e-3 * photon.position + glm::dvec3(1.0 / 3, 1e5 / 7, -1e9 / 11);
+    const auto start = photons;
+    diffuse(photons, FluxDiffusion::conserving, 3);
+    CHECK(same_positions(photons, start));
+    CHECK(variance(photons) < 0.9 * variance(start));
 }
 
 TEST_CASE("flux diffusion: colours are exchanged band by band") {

@@ -83,6 +83,32 @@ TEST_CASE("neighbourhood: photons on the other side of a thin wall are none") {
     check_against_brute_force(photons, 7, 0.06);
 }
 
+// A photon, six of its surface at a distance of 1, and so many of another surface nearer to it.
+TEST_CASE("neighbourhood: its own surface is found behind 128 times as many of another and no more") {
+    using Cloud = FloorCloud<glm::dvec3>;
+    const auto found_behind = [](int others) {
+        std::vector<Stored> photons{floor_photon(0, 0)};
+        for (int i = 0; i < 6; ++i)
+            photons.push_back(floor_photon(std::cos(i), std::sin(i)));
+        for (int i = 0; i < others; ++i) {
+            photons.push_back(floor_photon(0.001 * std::cos(i), 0.001 * std::sin(i)));
+            photons.back().normal = {0, 0, -1};
+        }
+        const Cloud cloud(photons, access_to<Stored>(), 0.5, "test");
+        const std::vector<double> radius(cloud.tree().slots(), 0.0);
+        Neighbourhood<Cloud> neighbourhood;
+        std::size_t count = 0;
+        for (std::uint32_t leaf = 0; leaf < cloud.tree().leaves().size(); ++leaf)
+            neighbourhood.for_each(cloud, leaf, 6, radius, [&](std::size_t slot, auto found) {
+                if (cloud.tree().index(slot) == 0)
+                    count = found.size();
+            });
+        return count;
+    };
+    CHECK(found_behind(int(neighbour_crowd) * 6 - 6) == 6); // itself, the others and six are one more than asked for
+    CHECK(found_behind(int(neighbour_crowd) * 6 + 1) == 0);
+}
+
 TEST_CASE("neighbourhood: many photons in one place cost no more than as many apart") {
     std::vector<Stored> photons(20000, floor_photon(0.5, 0.5));
     using Cloud = FloorCloud<glm::dvec3>;

@@ -24,6 +24,8 @@ std::string complaint(const RelaxationOptions& options) {
 TEST_CASE("relaxation options: the defaults and the bounds are fine") {
     CHECK(complaint({}).empty());
     CHECK(complaint({.iterations = 0, .neighbours = 1, .feature_neighbours = 16, .alpha = 0, .beta = 1}).empty());
+    CHECK(complaint(RelaxationOptions::keeping_density()).empty());
+    CHECK(complaint({.pilot_neighbours = 16}).empty());
     CHECK(complaint({.neighbours = 32, .feature_neighbours = 4096, .rho = 0, .cos_same_surface = -1}).empty());
 }
 
@@ -34,6 +36,8 @@ TEST_CASE("relaxation options: what cannot be is named with its value") {
     CHECK(complaint({.over_relaxation = 0}) == "nephroid::relax: over_relaxation 0 is not positive and finite");
     CHECK(complaint({.final_relaxation = nan}) == "nephroid::relax: final_relaxation nan is not positive and finite");
     CHECK(complaint({.final_step = 1.5}) == "nephroid::relax: final_step 1.5 is not above 0 and at most 1");
+    CHECK(complaint({.pilot_neighbours = 15}) == "nephroid::relax: pilot_neighbours 15 is not 0 or 16 to 4096");
+    CHECK(complaint({.pilot_neighbours = 4097}) == "nephroid::relax: pilot_neighbours 4097 is not 0 or 16 to 4096");
     CHECK(complaint({.feature_neighbours = 15}) == "nephroid::relax: feature_neighbours 15 is not 16 to 4096");
     CHECK(complaint({.alpha = -0.5}) == "nephroid::relax: alpha -0.5 is not at least 0 and below beta");
     CHECK(complaint({.alpha = 0.5, .beta = 0.5}) == "nephroid::relax: alpha 0.5 is not at least 0 and below beta");

@@ -27,8 +27,11 @@ void repeat(std::vector<StoredPhoton>& photons, float margin) {
 
 Subject builtin_subject(const Options& options, ThreadExecutor& threads) {
     const BuiltinCase<float, Color> builtin = builtin_case<float, Color>(options.subject, false).value();
-    const BuiltinFilm film{
-        .scene = options.subject, .view = builtin.film, .width = options.width, .height = options.height};
+    const BuiltinFilm film{.scene = options.subject,
+                           .view = builtin.film,
+                           .width = options.width,
+                           .height = options.height,
+                           .samples = options.samples};
     Subject subject;
     subject.photons = stored_photons(builtin.scene, builtin.light, walk_limits(film), options, threads);
     if (builtin.periodic)
@@ -36,7 +39,7 @@ Subject builtin_subject(const Options& options, ThreadExecutor& threads) {
     subject.width = options.width;
     subject.height = options.height;
     subject.floor = builtin.film;
-    subject.vertices = eye_vertices(floor_vertices(film));
+    subject.vertices = eye_vertices(film);
     subject.truth = exact_picture(film, options.threads);
     if (!subject.truth)
         subject.notes.push_back("the exact picture of " + options.subject + " is not known, so no errors are given");

@@ -50,7 +50,8 @@ Subject file_subject(const Options& options, ThreadExecutor& threads) {
         subject.height =
             static_cast<std::size_t>((std::max)(1.0, std::round(static_cast<double>(options.width) / aspect_of(view))));
     const auto camera = camera_from<float>(view, subject.width, subject.height);
-    subject.vertices = trace_eye_paths(gltf->scene, camera, {.seed = options.seed}, threads).vertices;
+    subject.vertices =
+        trace_eye_paths(gltf->scene, camera, {.samples = options.samples, .seed = options.seed}, threads).vertices;
     subject.photons =
         stored_photons(gltf->scene, photon_lights(gltf->lamps, gltf->scene), WalkLimits{}, options, threads);
     subject.project = [gltf, photons = subject.photons](std::size_t i, const glm::vec3& moved) {

@@ -13,8 +13,6 @@ namespace nephroid::examples::relaxation {
 
 namespace {
 
-using Estimate = NearestPhotons<glm::vec3, Color, EpanechnikovKernel>;
-
 constexpr double edge_reach = 0.04; ///< half a bar of the test pattern
 constexpr std::size_t edge_offsets = 81;
 
@@ -28,6 +26,7 @@ constexpr std::size_t edge_offsets = 81;
     return errors_against(*subject.truth, irradiance, picture.width, picture.height);
 }
 
+template <class Estimate>
 [[nodiscard]] double render(const Subject& subject, const Estimate& estimate, Image<Rgb>& picture,
                             ThreadExecutor& threads) {
     using Vertex = EyeVertex<float, Color>;
@@ -43,14 +42,17 @@ constexpr std::size_t edge_offsets = 81;
     return stopwatch.lap();
 }
 
-} // namespace
-
-Map map_of(const std::vector<StoredPhoton>& photons) {
-    return {photons, &StoredPhoton::position, &StoredPhoton::normal, &StoredPhoton::direction, &StoredPhoton::flux};
+/// Calls use(estimate) with that of some kernel.
+template <class Use>
+auto with_estimate(const Map& map, std::size_t neighbours, LookKernel kernel, const Use& use) {
+    if (kernel == LookKernel::biweight)
+        return use(NearestPhotons(map, {.count = neighbours}, BiweightKernel{}));
+    return use(NearestPhotons(map, {.count = neighbours}, EpanechnikovKernel{}));
 }
 
-Look look(const Subject& subject, const Map& map, std::size_t neighbours, ThreadExecutor& threads) {
-    const Estimate estimate(map, {.count = neighbours}, EpanechnikovKernel{});
+template <class Estimate>
+[[nodiscard]] Look look_with(const Subject& subject, std::size_t neighbours, const Estimate& estimate,
+                             ThreadExecutor& threads) {
     Look result{neighbours, std::numeric_limits<double>::infinity(), {subject.width, subject.height}, {}, {}, {}};
     for (double spent = 0, tries = 0; tries < 3 && (tries == 0 || spent < 1); ++tries) {
         const double seconds = render(subject, estimate, result.picture, threads);
@@ -69,8 +71,19 @@ Look look(const Subject& subject, const Map& map, std::size_t neighbours, Thread
     return result;
 }
 
+} // namespace
+
+Map map_of(const std::vector<StoredPhoton>& photons) {
+    return {photons, &StoredPhoton::position, &StoredPhoton::normal, &StoredPhoton::direction, &StoredPhoton::flux};
+}
+
+Look look(const Subject& subject, const Map& map, std::size_t neighbours, LookKernel kernel, ThreadExecutor& threads) {
+    return with_estimate(map, neighbours, kernel,
+                         [&](const auto& estimate) { return look_with(subject, neighbours, estimate, threads); });
+}
+
 BestNeighbours best_neighbours(const Subject& subject, const Map& map, const std::vector<std::size_t>& neighbours,
-                               ThreadExecutor& threads) {
+                               LookKernel kernel, ThreadExecutor& threads) {
     constexpr int patience = 3;
     Image<Rgb> picture(subject.width, subject.height);
     BestNeighbours best{neighbours.front(), neighbours.front()};
@@ -78,7 +91,8 @@ BestNeighbours best_neighbours(const Subject& subject, const Map& map, const std
     least.relative = least.rmse = std::numeric_limits<double>::infinity();
     int worse = 0;
     for (std::size_t i = 0; i < neighbours.size() && worse < patience; ++i) {
-        (void)render(subject, Estimate(map, {.count = neighbours[i]}, EpanechnikovKernel{}), picture, threads);
+        with_estimate(map, neighbours[i], kernel,
+                      [&](const auto& estimate) { return render(subject, estimate, picture, threads); });
         const auto errors = errors_of(subject, picture);
         ++worse;
         if (errors && errors->relative < least.relative) {

@@ -27,8 +27,9 @@ using Map = PhotonMap<glm::vec3, Color>;
 
 [[nodiscard]] Map map_of(const std::vector<StoredPhoton>& photons);
 
-/// Estimates irradiance by the k nearest photons with an Epanechnikov kernel, as Spencer and Jones 2009 do.
-[[nodiscard]] Look look(const Subject& subject, const Map& map, std::size_t neighbours, ThreadExecutor& threads);
+/// Estimates irradiance by the k nearest photons, by an Epanechnikov kernel as Spencer and Jones 2009 do or another.
+[[nodiscard]] Look look(const Subject& subject, const Map& map, std::size_t neighbours, LookKernel kernel,
+                        ThreadExecutor& threads);
 
 /// The numbers of neighbours that show least error.
 struct BestNeighbours {
@@ -38,6 +39,7 @@ struct BestNeighbours {
 /// Tries numbers of neighbours in order, until three in a row are worse than the best by either measure.
 /// @param neighbours  at least one, ascending
 [[nodiscard]] BestNeighbours best_neighbours(const Subject& subject, const Map& map,
-                                             const std::vector<std::size_t>& neighbours, ThreadExecutor& threads);
+                                             const std::vector<std::size_t>& neighbours, LookKernel kernel,
+                                             ThreadExecutor& threads);
 
 } // namespace nephroid::examples::relaxation

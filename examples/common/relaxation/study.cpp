@@ -18,11 +18,11 @@ namespace {
     const Map map = map_of(photons);
     result.build_seconds = stopwatch.lap();
     for (const std::size_t k : options.neighbours)
-        result.looks.push_back(look(subject, map, k, threads));
+        result.looks.push_back(look(subject, map, k, options.kernel, threads));
     if (sweep && subject.truth) {
-        const BestNeighbours best = best_neighbours(subject, map, options.sweep, threads);
-        result.best = look(subject, map, best.relative, threads);
-        result.best_picture = look(subject, map, best.rmse, threads);
+        const BestNeighbours best = best_neighbours(subject, map, options.sweep, options.kernel, threads);
+        result.best = look(subject, map, best.relative, options.kernel, threads);
+        result.best_picture = look(subject, map, best.rmse, options.kernel, threads);
     }
     const auto evenly_lit = options.spectrum ? options.spectrum : subject.evenly_lit;
     if (evenly_lit && subject.floor)

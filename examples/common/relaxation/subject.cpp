@@ -66,9 +66,11 @@ Subject pattern_subject(const Options& options) {
     subject.width = options.width;
     subject.height = options.height;
     subject.floor = FilmRectangle{0, 1, 0, 1};
-    const BuiltinFilm film{
-        .scene = options.subject, .view = *subject.floor, .width = options.width, .height = options.height};
-    subject.vertices = eye_vertices(floor_vertices(film));
+    subject.vertices = eye_vertices({.scene = options.subject,
+                                     .view = *subject.floor,
+                                     .width = options.width,
+                                     .height = options.height,
+                                     .samples = options.samples});
     subject.truth = irradiance_of(pattern, options.width, options.height);
     subject.edges = pattern.edges;
     if (options.subject == "uniform")
@@ -76,11 +78,13 @@ Subject pattern_subject(const Options& options) {
     return subject;
 }
 
-std::vector<EyeVertex<float, Color>> eye_vertices(const std::vector<FloorVertex>& floor) {
+std::vector<EyeVertex<float, Color>> eye_vertices(const BuiltinFilm& film) {
+    const std::vector<FloorVertex> floor = floor_vertices(film);
+    const Color weight(1 / static_cast<float>(film.samples));
     std::vector<EyeVertex<float, Color>> vertices;
     vertices.reserve(floor.size());
     for (const FloorVertex& vertex : floor)
-        vertices.push_back({vertex.position, upwards(vertex), upwards(vertex), 0, vertex.pixel, Color(1)});
+        vertices.push_back({vertex.position, upwards(vertex), upwards(vertex), 0, vertex.pixel, weight});
     return vertices;
 }
 

@@ -37,8 +37,8 @@ struct Subject {
     std::vector<std::string> notes; ///< on what is shown otherwise than one might think
 };
 
-/// A floor's vertices as a camera's.
-[[nodiscard]] std::vector<EyeVertex<float, Color>> eye_vertices(const std::vector<FloorVertex>& floor);
+/// A film's vertices on the floor as a camera's.
+[[nodiscard]] std::vector<EyeVertex<float, Color>> eye_vertices(const BuiltinFilm& film);
 
 /// A test pattern or a guide image. Photons go on beyond the picture by a tenth of it, so that it has no border.
 /// Throws UsageError for an unknown one, std::runtime_error for an image that cannot be read or is black.

@@ -109,13 +109,15 @@ public:
         return powers_[fx < 0 ? place(-fx, -fy) : place(fx, fy)] / static_cast<double>(sets_);
     }
 
-    /// The mean power of the frequencies with least <= |f| < most, without f = 0, which is the number of points; NaN if
-    /// there is none or no set.
+    /// The mean power of the frequencies with least <= |f| < most; NaN if there is none or no set. Without f = 0, which
+    /// is the number of points, and under a Hann window without its neighbours |f_x|, |f_y| <= 1, which hold the window's
+    /// own peak.
     [[nodiscard]] double band_power(double least, double most) const {
         double sum = 0;
         std::size_t count = 0;
         for_each_independent([&](double radius, double power) {
-            if (radius >= least && radius < most) {
+            const bool of_window = window_ == SpectralWindow::hann && radius < window_reach;
+            if (radius >= least && radius < most && !of_window) {
                 sum += power;
                 ++count;
             }
@@ -123,7 +125,8 @@ public:
         return count > 0 && sets_ > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
     }
 
-    /// The spectrum by radius: annuli k = 1 … highest − 1, the whole ones.
+    /// The spectrum by radius: annuli k = 1 … highest − 1, the whole ones. Under a Hann window the first one holds the
+    /// window's own peak.
     [[nodiscard]] std::vector<Annulus> radial() const {
         std::vector<Annulus> annuli(highest_ + 1);
         for_each_independent([&](double radius, double power) {
@@ -145,6 +148,9 @@ public:
     }
 
 private:
+    /// Between √2, the radius of the last frequency of the window itself, and 2.
+    static constexpr double window_reach = 1.5;
+
     [[nodiscard]] WeightedPoint weigh(double x, double y, std::size_t index) const {
         const bool inside = x >= 0 && x <= 1 && y >= 0 && y <= 1;
         if (!std::isfinite(x) || !std::isfinite(y) || (window_ == SpectralWindow::hann && !inside))

@@ -63,19 +63,8 @@ private:
     [[nodiscard]] T gather(const Cloud& cloud, std::size_t count, std::uint32_t slot) {
         const V origin = cloud.position(slot);
         frame_ = frame_about(cloud.normal(slot));
+        detail::nearest_on_surface(cloud, slot, count, crowd_);
         T radius2(0);
-        for (const std::size_t wanted : {count, 4 * count, 16 * count}) { // again where others lie in between
-            crowd_.resize(wanted);
-            crowd_.resize(cloud.tree().nearest(origin, crowd_));
-            std::erase_if(crowd_, [&](const auto& other) { return !cloud.same_surface(slot, other.slot); });
-            if (crowd_.size() > count) {
-                const auto nearer = [](const auto& a, const auto& b) { return a.distance2 < b.distance2; };
-                std::nth_element(crowd_.begin(), crowd_.begin() + std::ptrdiff_t(count), crowd_.end(), nearer);
-                crowd_.resize(count);
-            }
-            if (crowd_.size() == count || wanted >= cloud.tree().slots())
-                break;
-        }
         offsets_.clear();
         fluxes_.clear();
         for (const Neighbour<T>& other : crowd_) {

@@ -33,8 +33,9 @@ public:
     using F = typename Cloud::flux_type;
     using T = scalar_t<V>;
 
-    FluxExchange(const Cloud& cloud, std::size_t neighbours)
-        : neighbours_(neighbours), partners_(neighbours * cloud.tree().slots(), nobody), next_(cloud.fluxes()) {}
+    FluxExchange(const Cloud& cloud, const RelaxationOptions& options)
+        : neighbours_(options.neighbours), alpha_(options.alpha), beta_(options.beta),
+          partners_(neighbours_ * cloud.tree().slots(), nobody), next_(cloud.fluxes()) {}
 
     /// Notes whom a photon may exchange flux with. May be called for several photons at the same time.
     ///
@@ -66,9 +67,10 @@ private:
     }
 
     /// What both constraints let pass. The weights of eq. 13 leave half of what crosses an edge obliquely: at
-    /// features, the more two fluxes differ the less they exchange, which changes nothing along edges of density alone.
-    [[nodiscard]] static T passes_both(const Cloud& cloud, std::span<const PhotonConstraint<V>> constraints,
-                                       std::size_t slot, std::size_t other, const V& offset, T distance) {
+    /// features, fluxes exchange the less the more they differ, by the same measure as two sides of a feature [eq. 8],
+    /// which changes nothing along edges of density alone.
+    [[nodiscard]] T passes_both(const Cloud& cloud, std::span<const PhotonConstraint<V>> constraints, std::size_t slot,
+                                std::size_t other, const V& offset, T distance) const {
         if (constraints.empty())
             return T(1);
         const T held = (std::max)(constraints[slot].weight, constraints[other].weight);
@@ -76,7 +78,8 @@ private:
             return T(1);
         const T through = (std::min)(permeability(constraints[slot], offset, distance),
                                      permeability(constraints[other], offset, distance));
-        return through * (T(1) - held * T(1 - detail::flux_homogeneity(cloud.flux(slot), cloud.flux(other))));
+        const double homogeneity = detail::flux_homogeneity(cloud.flux(slot), cloud.flux(other));
+        return through * (T(1) - held * T(constraint_weight(homogeneity, alpha_, beta_)));
     }
 
     /// Eq. 12 and 13.
@@ -122,6 +125,7 @@ private:
     }
 
     std::size_t neighbours_;
+    double alpha_, beta_;                 ///< of eq. 8
     std::vector<std::uint32_t> partners_; // by slot, so many for each
     std::vector<F> next_;
 };

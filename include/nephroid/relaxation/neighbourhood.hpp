@@ -39,7 +39,7 @@ public:
             const bool found = (guess < reach && find(cloud, slot, count, guess)) || find(cloud, slot, count, reach);
             if (!found)
                 find_farther(cloud, slot, count);
-            visit(slot, std::span<const Neighbour<T>>(found_));
+            visit(slot, std::span<Neighbour<T>>(found_));
         }
     }
 

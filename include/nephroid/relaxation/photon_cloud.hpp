@@ -5,6 +5,7 @@
 #include "nephroid/map/point_tree.hpp"
 #include "nephroid/relaxation/photon_access.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -74,15 +75,21 @@ public:
                 fluxes_.push_back(std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))));
         }
 
-        /// Writes positions back to the photons they came from, and fluxes if asked for.
+        /// Writes positions back to the photons they came from.
         template <class Photons, class Access, class E>
             requires MovesPhotons<Access, Photons>
-        void write_back(Photons& photons, const Access& access, bool fluxes, E& executor) const {
+        void write_positions(Photons& photons, const Access& access, E& executor) const {
             detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
-                auto&& photon = detail::photon_at(photons, tree_.index(slot));
-                std::invoke(access.position, photon) = tree_.origin() + position(slot);
-                if (fluxes)
-                    std::invoke(access.flux, photon) = fluxes_[slot];
+                std::invoke(access.position, detail::photon_at(photons, tree_.index(slot))) =
+                    tree_.origin() + position(slot);
+            });
+        }
+        /// The same for fluxes.
+        template <class Photons, class Access, class E>
+            requires MovesPhotons<Access, Photons>
+        void write_fluxes(Photons& photons, const Access& access, E& executor) const {
+            detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
+                std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))) = fluxes_[slot];
             });
         }
 
@@ -107,5 +114,27 @@ public:
         std::vector<F> fluxes_;
         T cos_same_surface_;
 };
+
+namespace detail {
+/// The photons nearest to that in a slot on its surface, itself among them, in no particular order.
+///
+/// They are looked for among at most 16 times as many of any surface: where more photons of others lie between them
+/// there are fewer, and the search has an end.
+template <class Cloud, Scalar T>
+void nearest_on_surface(const Cloud& cloud, std::size_t slot, std::size_t count, std::vector<Neighbour<T>>& found) {
+    for (const std::size_t wanted : {count, 4 * count, 16 * count}) {
+        found.resize(wanted);
+        found.resize(cloud.tree().nearest(cloud.position(slot), found));
+        std::erase_if(found, [&](const auto& other) { return !cloud.same_surface(slot, other.slot); });
+        if (found.size() > count) {
+            const auto nearer = [](const auto& a, const auto& b) { return a.distance2 < b.distance2; };
+            std::nth_element(found.begin(), found.begin() + std::ptrdiff_t(count), found.end(), nearer);
+            found.resize(count);
+        }
+        if (found.size() == count || wanted >= cloud.tree().slots())
+            return;
+    }
+}
+} // namespace detail
 
 } // namespace nephroid

@@ -6,7 +6,7 @@
 /// ```cpp
 /// nephroid::ThreadExecutor threads;
 /// nephroid::relax(photons, nephroid::photon_access(&MyPhoton::position, &MyPhoton::normal, &MyPhoton::flux),
-///                 nephroid::RelaxationOptions{.iterations = 20}, threads);
+///                 nephroid::RelaxationOptions::keeping_density(), threads);
 /// ```
 #pragma once
 
@@ -75,7 +75,9 @@ template <class Photons, class Access, class E, class Project = StayInPlane, cla
             go_on = progress(report.iterations++);
         }
         if (report.iterations > 0)
-            cloud.write_back(photons, access, options.flux_diffusion != FluxDiffusion::none, executor);
+            cloud.write_positions(photons, access, executor);
+        if (report.iterations > 0 && options.flux_diffusion != FluxDiffusion::none)
+            cloud.write_fluxes(photons, access, executor);
         return report;
     }
 
@@ -95,7 +97,7 @@ void diffuse_flux(Photons&& photons, const Access& access, const RelaxationOptio
     relaxer.diffuse(executor);
     for (unsigned i = 1; i < options.iterations; ++i)
         relaxer.exchange_flux(executor);
-    cloud.write_back(photons, access, true, executor);
+    cloud.write_fluxes(photons, access, executor);
 }
 
 } // namespace nephroid

@@ -7,6 +7,7 @@
 #include "nephroid/relaxation/neighbourhood.hpp"
 #include "nephroid/relaxation/parting.hpp"
 #include "nephroid/relaxation/repulsion.hpp"
+#include "nephroid/relaxation/target_spacing.hpp"
 
 #include <optional>
 
@@ -26,13 +27,16 @@ public:
     /// @param options  must outlive this; checked by the caller
     template <class E>
     Relaxer(Cloud& cloud, const RelaxationOptions& options, E& executor)
-        : cloud_(&cloud), options_(&options), radius_(cloud.tree().slots()), next_radius_(radius_.size()) {
+        : cloud_(&cloud), options_(&options), reach_(cloud.tree().slots()), radius_(reach_.size()),
+          next_radius_(reach_.size()) {
         if (options.constrain)
             constrain(executor);
+        if (options.pilot_neighbours > 0)
+            target_.emplace(cloud, options.pilot_neighbours, constraints_, executor);
         if (options.flux_diffusion != FluxDiffusion::none)
-            exchange_.emplace(cloud, options.neighbours);
+            exchange_.emplace(cloud, options);
         for (const TreeLeaf& leaf : cloud.tree().leaves())
-            guess_radius(leaf);
+            guess_reach(leaf);
     }
 
     [[nodiscard]] std::size_t searches() const { return searches_; }
@@ -55,15 +59,18 @@ public:
             T(over_relaxation(iteration, options_->iterations, options_->over_relaxation, options_->final_relaxation));
         const T share = T(step_share(iteration, options_->iterations, options_->final_step));
         std::vector<double> moves(cloud_->tree().leaves().size());
-        const auto advance = [&](std::uint32_t leaf, std::size_t slot, std::span<const Neighbour<T>> found) {
+        const auto advance = [&](std::uint32_t leaf, std::size_t slot, std::span<Neighbour<T>> found) {
             const V from = cloud_->position(slot);
-            const T radius = next_radius_[slot] > T(0) ? next_radius_[slot] : radius_apart(slot);
+            const std::span<const Neighbour<T>> pushing = by_target(slot, found);
+            T radius = pushing.empty() ? T(0) : sqrt(pushing.back().distance2);
+            if (!(radius > T(0)))
+                radius = radius_apart(slot);
             V to = from;
             if (radius > T(0)) {
                 if (iteration == 0)
                     first_radius_[slot] = radius;
                 const T limit_radius = iteration > 0 && radius_[slot] > T(0) ? radius_[slot] : radius;
-                const V step = share * move(slot, found, radius, relaxation, limit_radius);
+                const V step = share * move(slot, pushing, radius, relaxation, limit_radius);
                 to = leashed(slot, from, project(slot, V(from + step)));
                 moves[leaf] += double(length(V(to - from)) / radius);
             }
@@ -80,7 +87,7 @@ public:
     /// Evens out the fluxes where the photons are.
     template <class E>
     void diffuse(E& executor) {
-        for_each_neighbourhood(executor, [](std::uint32_t, std::size_t, std::span<const Neighbour<T>>) {});
+        for_each_neighbourhood(executor, [](std::uint32_t, std::size_t, std::span<Neighbour<T>>) {});
         exchange_flux(executor);
         radius_ = next_radius_;
     }
@@ -104,7 +111,7 @@ private:
     }
 
     /// As if the photons of a leaf filled the two longer sides of its box.
-    void guess_radius(const TreeLeaf& leaf) {
+    void guess_reach(const TreeLeaf& leaf) {
         std::array<T, 3> side;
         const T* const coordinates[3] = {cloud_->tree().x(), cloud_->tree().y(), cloud_->tree().z()};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -113,8 +120,8 @@ private:
             side[axis] = *high - *low;
         }
         std::sort(side.begin(), side.end());
-        const T wanted = T(options_->neighbours + 1), area = side[2] * (std::max)(side[1], side[2] / T(leaf.size));
-        std::fill_n(radius_.begin() + leaf.first, leaf.size, sqrt(wanted * area / (pi<T> * T(leaf.size))));
+        const T wanted = T(looked_for()), area = side[2] * (std::max)(side[1], side[2] / T(leaf.size));
+        std::fill_n(reach_.begin() + leaf.first, leaf.size, sqrt(wanted * area / (pi<T> * T(leaf.size))));
     }
 
     void remember_start() {
@@ -125,16 +132,22 @@ private:
         first_radius_.assign(tree.slots(), T(0));
     }
 
-    /// Calls visit(leaf, slot, neighbours) for all photons; notes the radii and whom flux may be exchanged with.
+    /// How many neighbours are looked for: of as many again as push a photon some may be nearer to it by their targets.
+    [[nodiscard]] std::size_t looked_for() const { return (target_ ? 2 : 1) * std::size_t(options_->neighbours + 1); }
+
+    /// Calls visit(leaf, slot, neighbours) for all photons, with neighbours that visit may put in another order; notes
+    /// the radii and whom flux may be exchanged with.
     template <class E, class Visit>
     void for_each_neighbourhood(E& executor, const Visit& visit) {
-        const std::size_t count = options_->neighbours + 1;
+        const std::size_t pushing = options_->neighbours + 1;
         for_each_leaf<Neighbourhood<Cloud>>(cloud_->tree(), executor, [&](auto& neighbourhood, std::uint32_t leaf) {
-            neighbourhood.for_each(*cloud_, leaf, count, radius_,
-                                   [&](std::size_t slot, std::span<const Neighbour<T>> found) {
-                                       next_radius_[slot] = found.empty() ? T(0) : sqrt(found.back().distance2);
+            neighbourhood.for_each(*cloud_, leaf, looked_for(), reach_,
+                                   [&](std::size_t slot, std::span<Neighbour<T>> found) {
+                                       const auto first = found.first((std::min)(pushing, found.size()));
+                                       next_radius_[slot] = found.empty() ? T(0) : sqrt(first.back().distance2);
+                                       reach_[slot] = found.empty() ? T(0) : sqrt(found.back().distance2);
                                        if (exchange_)
-                                           exchange_->note(slot, found);
+                                           exchange_->note(slot, first);
                                        visit(leaf, slot, found);
                                    });
         });
@@ -151,8 +164,21 @@ private:
         return sqrt(distance2);
     }
 
+    /// The neighbours that push a photon and the one after them, by the distances that their targets make of theirs.
+    [[nodiscard]] std::span<const Neighbour<T>> by_target(std::size_t slot, std::span<Neighbour<T>> found) const {
+        if (!target_)
+            return found;
+        for (Neighbour<T>& other : found)
+            other.distance2 = other.distance2 * target_->factor(slot, other.slot);
+        std::sort(found.begin(), found.end(), [](const Neighbour<T>& a, const Neighbour<T>& b) {
+            return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.slot < b.slot;
+        });
+        return found.first((std::min)(std::size_t(options_->neighbours + 1), found.size()));
+    }
+
     /// The force on a photon [eq. 1 and 3], as far as it follows it [eq. 10 and 11].
     ///
+    /// @param found         nearest first; the last one tells the radius
     /// @param limit_radius  r_p of eq. 11: of the iteration before, which keeps artefacts out
     [[nodiscard]] V move(std::size_t slot, std::span<const Neighbour<T>> found, T radius, T relaxation,
                          T limit_radius) const {
@@ -181,8 +207,10 @@ private:
     Cloud* cloud_;
     const RelaxationOptions* options_;
     std::vector<PhotonConstraint<V>> constraints_; // by slot, as all of these; empty without constraints
-    std::vector<T> radius_, next_radius_, first_radius_;
+    std::vector<T> reach_; ///< to the last of the neighbours that are looked for, when they were last looked for
+    std::vector<T> radius_, next_radius_, first_radius_; ///< of the disc of K + 1
     std::array<std::vector<T>, 3> start_, next_;
+    std::optional<TargetSpacing<Cloud>> target_;
     std::optional<FluxExchange<Cloud>> exchange_;
     std::size_t searches_ = 0;
 };
