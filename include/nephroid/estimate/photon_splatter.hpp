@@ -55,21 +55,26 @@ public:
             const auto outcome = make_splat(deposit, *splatter.map_, splatter.policies_);
             account.bounded_footprints += outcome.bounded;
             Fate fate = outcome.fate;
-            if (outcome.splat) {
-                const std::size_t before = leaves_.size();
-                const auto number = std::uint32_t(splats_.size());
-                splatter.map_->tree().visit_leaves(outcome.splat->box, [&](std::uint32_t leaf) {
-                    if (splatter.facing(leaf, *outcome.splat) < 0)
-                        return;
-                    leaves_.push_back(leaf);
-                    numbers_.push_back(number);
-                });
-                if (leaves_.size() == before)
-                    fate = Fate::unseen;
-                else
-                    splats_.push_back(*outcome.splat);
-            }
+            if (outcome.splat && !add(splatter, *outcome.splat))
+                fate = Fate::unseen;
             account.end(fate, double(flux_traits<F>::power(deposit.flux)));
+        }
+
+        /// Splats what has been made ready.
+        /// @return  whether it meets a leaf whose vertices may face it
+        bool add(const PhotonSplatter& splatter, const Splat<V, F>& splat) {
+            const std::size_t before = leaves_.size();
+            const auto number = std::uint32_t(splats_.size());
+            splatter.map_->tree().visit_leaves(splat.box, [&](std::uint32_t leaf) {
+                if (splatter.facing(leaf, splat) < 0)
+                    return;
+                leaves_.push_back(leaf);
+                numbers_.push_back(number);
+            });
+            if (leaves_.size() == before)
+                return false;
+            splats_.push_back(splat);
+            return true;
         }
 
         void clear() {
