@@ -8,6 +8,7 @@
 
 #include "nephroid/map/build_tree.hpp"
 #include "nephroid/map/tree_node.hpp"
+#include "nephroid/map/wide_tree.hpp"
 #include "nephroid/transport/executor.hpp"
 #include "nephroid/vector/algebra.hpp"
 #include "nephroid/vector/error.hpp"
@@ -114,6 +115,7 @@ public:
         index_ = std::move(built.index);
         coordinates_ = std::move(built.coordinates);
         bounds_ = nodes_.front().box;
+        wide_ = detail::WideTree<T>(nodes_);
     }
 
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
@@ -161,21 +163,13 @@ public:
         }
         if (!nodes_.empty())
             bounds_ = nodes_.front().box;
+        wide_.refit(nodes_);
     }
 
     /// Calls visit(leaf) for every leaf whose box overlaps this one, in leaf order.
     template <class Visit>
     void visit_leaves(const Box<T>& box, Visit&& visit) const {
-        for (std::size_t i = 0; i < nodes_.size();) {
-            const TreeNode<T>& node = nodes_[i];
-            if (!node.box.overlaps(box)) {
-                i = node.skip;
-                continue;
-            }
-            if (node.leaf != no_leaf)
-                visit(node.leaf);
-            ++i;
-        }
+        wide_.visit_leaves(nodes_, box, visit);
     }
 
     /// The leaf whose box is nearest to a point (relative to the origin), by the boxes' Chebyshev distance; the tree
@@ -183,31 +177,7 @@ public:
     [[nodiscard]] std::uint32_t nearest_leaf(const V& relative_position) const {
         using t = vector_traits<V>;
         const std::array<T, 3> p = {t::x(relative_position), t::y(relative_position), t::z(relative_position)};
-        const auto distance_to = [&](const TreeNode<T>& node) {
-            T distance(0);
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                distance = (std::max)({distance, node.box.low[axis] - p[axis], p[axis] - node.box.high[axis]});
-            return distance;
-        };
-
-        // Down to a near leaf first: most points lie in it, and for the others it leaves little to search.
-        const std::size_t start = descend(distance_to);
-        std::uint32_t found = nodes_[start].leaf;
-        T best = distance_to(nodes_[start]);
-        for (std::size_t i = 0; i < nodes_.size();) {
-            const TreeNode<T>& node = nodes_[i];
-            const T distance = distance_to(node);
-            if (!(distance < best)) {
-                i = node.skip;
-                continue;
-            }
-            if (node.leaf != no_leaf) {
-                best = distance;
-                found = node.leaf;
-            }
-            ++i;
-        }
-        return found;
+        return wide_.nearest_leaf(nodes_, p);
     }
 
     /// Squared distances from a place (relative to the origin) to the points in `lanes` slots from this one on.
@@ -312,17 +282,6 @@ private:
         }
     }
 
-    /// The node of a leaf that lies near, by always taking the nearer child.
-    template <class Distance>
-    [[nodiscard]] std::size_t descend(const Distance& distance_to) const {
-        std::size_t node = 0;
-        while (nodes_[node].leaf == no_leaf) {
-            const std::size_t first = node + 1, second = nodes_[first].skip;
-            node = distance_to(nodes_[first]) <= distance_to(nodes_[second]) ? first : second;
-        }
-        return node;
-    }
-
     /// Repeats a leaf's last point up to whole lanes, and draws its box.
     void refit_leaf(const TreeLeaf& leaf, Box<T>& box) {
         const std::size_t last = leaf.first + leaf.size - 1;
@@ -379,6 +338,7 @@ private:
     V origin_ = zero_vector<V>();
     Box<T> bounds_{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     std::vector<TreeNode<T>> nodes_;
+    detail::WideTree<T> wide_;
     std::vector<TreeLeaf> leaves_;
     std::vector<std::uint32_t> index_;
     std::array<std::vector<T>, 3> coordinates_;
