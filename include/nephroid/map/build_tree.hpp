@@ -26,8 +26,8 @@ struct PointCloud {
 /// A tree's nodes, and its points in leaf order.
 ///
 /// nanoflann reads points where they lie, through a permutation: fast while there are few nodes, and slow for the many
-/// at the bottom. From `coarse_size` points on they are copied out and halved here, at the middle of the longest side
-/// of the box that is tight about them.
+/// at the bottom. From `coarse_size` points on they are copied out and divided here, across the longest side of the
+/// box that is tight about them, into leaves that are as full as can be.
 template <Scalar T>
 class TreeBuilder {
 public:
@@ -115,25 +115,56 @@ private:
         return box;
     }
 
-    /// Puts the points of the lower half first; returns where the others begin. Where the middle does not part them, as
-    /// they coincide, so many go to either side.
+    /// Puts those of the lower half first, across the longest side; returns where the others begin. Many are parted in the
+    /// middle; the last few hundred where all leaves below will be as full as can be.
     [[nodiscard]] std::size_t halve(std::size_t begin, std::size_t end, const Box<T>& box) {
         std::size_t axis = 0;
         for (std::size_t other = 1; other < 3; ++other)
             if (box.high[other] - box.low[other] > box.high[axis] - box.low[axis])
                 axis = other;
-        const T middle = T(0.5) * box.low[axis] + T(0.5) * box.high[axis];
-        upper_.resize(points_.size());
-        std::size_t lower = begin, upper = 0;
-        for (std::size_t i = begin; i < end; ++i) { // without a branch, which would go either way
-            const Point point = points_[i];
-            const bool is_lower = point.at[axis] < middle;
-            points_[lower] = upper_[upper] = point;
-            lower += std::size_t(is_lower);
-            upper += std::size_t(!is_lower);
+        const std::size_t size = end - begin, leaf_count = (size + leaf_size_ - 1) / leaf_size_;
+        if (leaf_count > 12) {
+            const std::size_t border = partition(axis, begin, end, T(0.5) * box.low[axis] + T(0.5) * box.high[axis]);
+            if (border != begin && border != end)
+                return border;
         }
-        std::copy_n(upper_.begin(), upper, points_.begin() + std::ptrdiff_t(lower));
-        return lower == begin || lower == end ? begin + (end - begin) / 2 : lower;
+        const std::size_t middle = begin + size * (leaf_count / 2) / leaf_count;
+        select(axis, begin, end, middle, box.low[axis], box.high[axis]);
+        return middle;
+    }
+
+    /// Orders points as std::nth_element does. By interpolation, as most are spread evenly: one pass over all of them
+    /// then leaves few to look at. Without a branch for each point, which would go either way.
+    ///
+    /// @param low, high  of the coordinate
+    void select(std::size_t axis, std::size_t begin, std::size_t end, std::size_t middle, T low, T high) {
+        constexpr std::size_t few = 32;
+        for (int tries = 0; tries < 8 && end - begin > few; ++tries) {
+            const T share = T(middle - begin) / T(end - begin), guess = (T(1) - share) * low + share * high;
+            const std::size_t border = partition(axis, begin, end, guess);
+            if (border == middle)
+                return;
+            (middle < border ? end : begin) = border;
+            (middle < border ? high : low) = guess;
+        }
+        std::nth_element(points_.begin() + std::ptrdiff_t(begin), points_.begin() + std::ptrdiff_t(middle),
+                         points_.begin() + std::ptrdiff_t(end),
+                         [axis](const Point& a, const Point& b) { return a.at[axis] < b.at[axis]; });
+    }
+
+    /// Puts the points below a border first; returns where the others begin.
+    [[nodiscard]] std::size_t partition(std::size_t axis, std::size_t begin, std::size_t end, T border) {
+        above_.resize(points_.size());
+        std::size_t below = begin, above = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            const Point point = points_[i];
+            const bool is_below = point.at[axis] < border;
+            points_[below] = above_[above] = point;
+            below += std::size_t(is_below);
+            above += std::size_t(!is_below);
+        }
+        std::copy_n(above_.begin(), above, points_.begin() + std::ptrdiff_t(below));
+        return below;
     }
 
     void append_leaf(std::size_t begin, std::size_t end) {
@@ -165,7 +196,7 @@ private:
     }
 
     std::size_t leaf_size_, lanes_;
-    std::vector<Point> points_, upper_;
+    std::vector<Point> points_, above_;
     std::vector<std::size_t> parents_;
 };
 

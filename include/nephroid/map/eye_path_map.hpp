@@ -13,6 +13,7 @@ namespace nephroid {
 /// What the splatter knows of a leaf beyond its points.
 template <Scalar T>
 struct EyePathLeaf {
+    std::array<T, 3> middle, half; ///< of its box, relative to the tree's origin; half its extents
     Box<T> normals; ///< the components of its vertices' normals: one test for a whole leaf that faces a photon
     T spacing;      ///< of neighbouring vertices, world units: one pixel's footprint on the surface; 0 if unknown
 };
@@ -35,12 +36,14 @@ public:
     /// Throws std::invalid_argument naming the vertex whose position or normal is not finite or not of unit length.
     template <std::ranges::random_access_range Vertices, class Position, class Normal>
     EyePathMap(const Vertices& vertices, Position position, Normal normal)
-        : tree_(std::size_t(std::ranges::size(vertices)),
-                [&](std::size_t i) -> V { return std::invoke(position, at(vertices, i)); }, "nephroid::EyePathMap") {
+        : tree_(
+              std::size_t(std::ranges::size(vertices)),
+              [&](std::size_t i) -> V { return std::invoke(position, at(vertices, i)); }, "nephroid::EyePathMap") {
         gather_normals(vertices, normal);
         leaves_.reserve(tree_.leaves().size());
-        for (const TreeLeaf& leaf : tree_.leaves())
-            leaves_.push_back({normal_bounds(leaf), leaf_spacing(leaf)});
+        for (const TreeNode<T>& node : tree_.nodes())
+            if (node.leaf != no_leaf)
+                append_leaf(tree_.leaves()[node.leaf], node.box);
         fill_unknown_spacings();
         const Box<T>& box = tree_.bounds();
         for (std::size_t axis = 0; !tree_.empty() && axis < 3; ++axis)
@@ -83,6 +86,15 @@ private:
             normals_[0].push_back(t::x(n));
             normals_[1].push_back(t::y(n));
             normals_[2].push_back(t::z(n));
+        }
+    }
+
+    /// Leaves come in their own order, as the nodes do.
+    void append_leaf(const TreeLeaf& leaf, const Box<T>& box) {
+        leaves_.push_back({{}, {}, normal_bounds(leaf), leaf_spacing(leaf)});
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            leaves_.back().middle[axis] = T(0.5) * box.low[axis] + T(0.5) * box.high[axis];
+            leaves_.back().half[axis] = T(0.5) * box.high[axis] - T(0.5) * box.low[axis];
         }
     }
 
