@@ -230,7 +230,7 @@ private:
     const EyePathMap<V>* map_;
     Policies policies_;
     Response response_;
-    std::vector<F> sums_;                      // by slot
+    std::vector<F> sums_; // by slot
     std::vector<std::size_t> bin_begin_, bin_end_;
     std::vector<const Splat<V, F>*> bins_;
 };

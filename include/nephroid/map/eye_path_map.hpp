@@ -6,6 +6,7 @@
 #include "nephroid/map/spacing.hpp"
 
 #include <functional>
+#include <numeric>
 #include <ranges>
 
 namespace nephroid {
@@ -77,15 +78,13 @@ private:
     void gather_normals(const Vertices& vertices, Normal& normal) {
         using t = vector_traits<V>;
         for (auto& component : normals_)
-            component.reserve(tree_.slots());
+            component.resize(tree_.slots());
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
             const V n = std::invoke(normal, at(vertices, tree_.index(slot)));
             if (!(abs(length2(n) - T(1)) < T(0.01)))
                 invalid_argument("nephroid::EyePathMap: vertex " + std::to_string(tree_.index(slot)) +
                                  " has the normal " + detail::text_of(n) + "; normals must be of unit length");
-            normals_[0].push_back(t::x(n));
-            normals_[1].push_back(t::y(n));
-            normals_[2].push_back(t::z(n));
+            normals_[0][slot] = t::x(n), normals_[1][slot] = t::y(n), normals_[2][slot] = t::z(n);
         }
     }
 
@@ -101,9 +100,13 @@ private:
     [[nodiscard]] Box<T> normal_bounds(const TreeLeaf& leaf) const {
         Box<T> box;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto first = normals_[axis].begin() + std::ptrdiff_t(leaf.first);
-            const auto [low, high] = std::minmax_element(first, first + std::ptrdiff_t(leaf.size));
-            box.low[axis] = *low, box.high[axis] = *high;
+            const T* const component = normals_[axis].data() + leaf.first;
+            T low = component[0], high = low;
+            for (std::size_t i = 1; i < leaf.size; ++i) {
+                low = (std::min)(low, component[i]);
+                high = (std::max)(high, component[i]);
+            }
+            box.low[axis] = low, box.high[axis] = high;
         }
         return box;
     }
@@ -111,10 +114,11 @@ private:
     /// From the vertices around the leaf's middle, its own and its neighbours', so that leaves of any shape will do.
     [[nodiscard]] T leaf_spacing(const TreeLeaf& leaf) const {
         const T* const coordinates[3] = {tree_.x(), tree_.y(), tree_.z()};
-        std::array<T, 3> middle{T(0), T(0), T(0)};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::uint32_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
-                middle[axis] = middle[axis] + coordinates[axis][slot] / T(leaf.size);
+        std::array<T, 3> middle;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const T* const first = coordinates[axis] + leaf.first;
+            middle[axis] = std::accumulate(first, first + leaf.size, T(0)) / T(leaf.size);
+        }
 
         constexpr std::size_t wanted = 24;
         std::array<Neighbour<T>, wanted> found;
