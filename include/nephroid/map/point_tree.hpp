@@ -250,21 +250,22 @@ private:
     template <class Accept>
     void take_leaf(const TreeLeaf& leaf, const std::array<T, 3>& p, detail::NearestHeap<T>& heap,
                    const Accept& accept) const {
-        // First without a branch, as which points are wanted is anybody's guess; the few that are then one by one.
-        std::array<Neighbour<T>, leaf_size> wanted;
-        std::size_t count = 0;
+        // First without a branch, as which points are wanted is anybody's guess; the few that are then one by one, before
+        // the next lanes are looked at, of which fewer are wanted for it.
+        std::array<Neighbour<T>, lanes> wanted;
         for (std::uint32_t first = 0; first < leaf.size; first += lanes) {
             std::array<T, lanes> distance2;
             distances2(leaf.first + first, p, distance2);
             const std::size_t size = (std::min)(lanes, std::size_t(leaf.size - first));
+            std::size_t count = 0;
             for (std::size_t i = 0; i < size; ++i) {
                 wanted[count] = {distance2[i], std::uint32_t(leaf.first + first + i)};
                 count += std::size_t(heap.wants(distance2[i]));
             }
+            for (std::size_t i = 0; i < count; ++i)
+                if (heap.wants(wanted[i].distance2) && accept(std::size_t(wanted[i].slot)))
+                    heap.take(wanted[i]);
         }
-        for (std::size_t i = 0; i < count; ++i)
-            if (heap.wants(wanted[i].distance2) && accept(std::size_t(wanted[i].slot)))
-                heap.take(wanted[i]);
     }
 
     template <class Accept>
