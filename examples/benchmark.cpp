@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file  How fast nephroid is, as ratios to yardsticks that are measured in the same run: `benchmark`, or
 ///        `benchmark splat knn` for a choice of rows.
+#include "common/benchmark/long_run.hpp"
 #include "common/benchmark/matrices.hpp"
 #include "common/benchmark/passes.hpp"
 #include "common/benchmark/rays.hpp"
@@ -25,7 +26,7 @@ namespace bench = nephroid::examples::benchmarks;
 using Rows = void (*)(const bench::Effort&);
 
 /// In the order that they are run in.
-constexpr std::array<std::pair<const char*, Rows>, 11> rows = {{{"splat", bench::benchmark_splatting},
+constexpr std::array<std::pair<const char*, Rows>, 12> rows = {{{"splat", bench::benchmark_splatting},
                                                                 {"build", bench::benchmark_build},
                                                                 {"tangents", bench::benchmark_tangents},
                                                                 {"matrix", bench::benchmark_matrices},
@@ -35,7 +36,8 @@ constexpr std::array<std::pair<const char*, Rows>, 11> rows = {{{"splat", bench:
                                                                 {"pass", bench::benchmark_pass},
                                                                 {"frame", bench::benchmark_frame},
                                                                 {"threads", bench::benchmark_threads},
-                                                                {"growth", bench::benchmark_growth}}};
+                                                                {"growth", bench::benchmark_growth},
+                                                                {"long", bench::benchmark_long_run}}};
 
 } // namespace
 

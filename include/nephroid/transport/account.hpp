@@ -10,7 +10,7 @@ namespace nephroid {
 
 /// How a photon's flux ends.
 enum class Fate : unsigned char {
-    splatted,   ///< onto leaves of the eye path map that the footprint's box overlaps and that face the photon
+    splatted,   ///< onto leaves of the eye path map that the footprint may reach and that may face the photon
     unseen,     ///< on a diffuse surface, but nowhere near eye path vertices on the photon's side
     direct,     ///< on a diffuse surface without having met a specular one: direct light, not a caustic
     absorbed,   ///< by surfaces and media, or reflected where only refraction is followed
