@@ -41,7 +41,8 @@ inline void print_row(const std::string& what, double figure, const char* unit, 
                       Bar bar = {}) {
     std::array<char, 32> measured{}, times{};
     std::snprintf(measured.data(), measured.size(), "%.4g %s", figure, unit);
-    std::snprintf(times.data(), times.size(), std::isfinite(ratio) ? "%.3g" : "", ratio);
+    if (std::isfinite(ratio))
+        std::snprintf(times.data(), times.size(), "%.3g", ratio);
     std::printf("| %-58s | %12s | %-30s | %8s | %8s | %-6s |\n", what.c_str(), measured.data(), yardstick, times.data(),
                 bar.text().c_str(), bar.verdict(ratio));
     std::fflush(stdout);
