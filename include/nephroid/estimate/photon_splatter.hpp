@@ -147,16 +147,18 @@ private:
         return least > T(0) ? 1 : most > T(0) ? 0 : -1;
     }
 
-    /// Where a linear function of place, 0 at the splat's centre, lies on a leaf's box: in middle ± reach.
+    /// Where a linear function of place, 0 at the splat's centre, lies on a leaf's box: in middle ± reach, rounding included,
+    /// as the terms for a thin footprint are large and cancel.
     struct Range {
         T middle, reach;
     };
     [[nodiscard]] static Range range_of(const V& row, const V& centre, const EyePathLeaf<T>& leaf) {
         using t = vector_traits<V>;
         const T x = t::x(row), y = t::y(row), z = t::z(row);
-        return {x * (leaf.middle[0] - t::x(centre)) + y * (leaf.middle[1] - t::y(centre)) +
-                    z * (leaf.middle[2] - t::z(centre)),
-                abs(x) * leaf.half[0] + abs(y) * leaf.half[1] + abs(z) * leaf.half[2]};
+        const T a = x * (leaf.middle[0] - t::x(centre)), b = y * (leaf.middle[1] - t::y(centre)),
+                c = z * (leaf.middle[2] - t::z(centre));
+        return {a + b + c, abs(x) * leaf.half[0] + abs(y) * leaf.half[1] + abs(z) * leaf.half[2] +
+                               rounding * (abs(a) + abs(b) + abs(c))};
     }
 
     /// False only if no vertex of the leaf lies in the footprint: whose box the leaf meets, at a corner.
