@@ -4,6 +4,7 @@
 # argument is the folder of the programs.
 set -eu
 benchmark=$1/benchmark
+[ -x "$benchmark" ] || benchmark=$1/benchmarks # as Meson builds it
 [ -x "$benchmark" ] || exit 77
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
