@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 using namespace nephroid;
@@ -75,4 +77,26 @@ TEST_CASE("fates: have as many names as there are and each its own") {
     CHECK(fate_names[std::size_t(Fate::collapsed)] == std::string("collapsed"));
     CHECK(fate_names[std::size_t(Fate::excessive)] == std::string("excessive"));
     CHECK(fate_names[std::size_t(Fate::invalid)] == std::string("invalid"));
+}
+
+// A plain sum of ten million tenths is off by 1e-10 of it, as its additions err alike for as long as the sum stays within a
+// power of two; what is left to a compensated one is a rounding of each of its 1000 parts and of the result. Ten million
+// times the double nearest to 0.1 has 53 + 24 bits: the product is rounded once.
+TEST_CASE("statistics: millions of photons lose no flux to rounding") {
+    const double each = 0.1, rounding = std::numeric_limits<double>::epsilon();
+    const int chunks = 1000, per_chunk = 10'000;
+    Statistics whole;
+    double plain = 0;
+    for (int chunk = 0; chunk < chunks; ++chunk) {
+        Statistics part;
+        for (int i = 0; i < per_chunk; ++i) {
+            part.end(Fate::splatted, each);
+            plain += each;
+        }
+        whole += part;
+    }
+    const double exact = each * (double(chunks) * per_chunk);
+    CHECK(whole[Fate::splatted].photons == std::uint64_t(chunks) * per_chunk);
+    CHECK(std::abs(whole[Fate::splatted].flux - exact) <= 2 * rounding * exact);
+    CHECK(std::abs(plain - exact) > 100 * rounding * exact); // else this would prove nothing
 }

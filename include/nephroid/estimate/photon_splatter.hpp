@@ -81,6 +81,24 @@ public:
                 account.lose(Fate(i), flux[i]);
         }
 
+        /// Splats what has been made ready.
+        /// @return  whether it meets a leaf with vertices that may lie in it and face it
+        template <class Takes = EveryLeaf>
+        bool add(const PhotonSplatter& splatter, const Splat<V, F>& splat, const Takes& takes = {}) {
+            const std::size_t before = leaves_.size();
+            const auto number = std::uint32_t(splats_.size());
+            splatter.map_->tree().visit_leaves(splat.box, [&](std::uint32_t leaf) {
+                if (!takes(leaf) || splatter.facing(leaf, splat) < 0 || !splatter.may_reach(splat, leaf))
+                    return;
+                leaves_.push_back(leaf);
+                numbers_.push_back(number);
+            });
+            if (leaves_.size() == before)
+                return false;
+            splats_.push_back(splat);
+            return true;
+        }
+
         void clear() {
             splats_.clear();
             leaves_.clear();
@@ -103,20 +121,7 @@ public:
                                  const Takes& takes) {
             const auto outcome = make_splat(deposit, *splatter.map_, splatter.policies_);
             account.bounded_footprints += outcome.bounded;
-            if (!outcome.splat)
-                return outcome.fate;
-            const std::size_t before = leaves_.size();
-            const auto number = std::uint32_t(splats_.size());
-            splatter.map_->tree().visit_leaves(outcome.splat->box, [&](std::uint32_t leaf) {
-                if (!takes(leaf) || splatter.facing(leaf, *outcome.splat) < 0)
-                    return;
-                leaves_.push_back(leaf);
-                numbers_.push_back(number);
-            });
-            if (leaves_.size() == before)
-                return Fate::unseen;
-            splats_.push_back(*outcome.splat);
-            return outcome.fate;
+            return outcome.splat && !add(splatter, *outcome.splat, takes) ? Fate::unseen : outcome.fate;
         }
 
         std::vector<Splat<V, F>> splats_;
@@ -184,6 +189,36 @@ private:
         return least > T(0) ? 1 : most > T(0) ? 0 : -1;
     }
 
+    /// Where a linear function of place, 0 at the splat's centre, lies on a leaf's box: in middle ± reach, rounding included,
+    /// as the terms for a thin footprint are large and cancel.
+    struct Range {
+        T middle, reach;
+    };
+    [[nodiscard]] static Range range_of(const V& row, const V& centre, const EyePathLeaf<T>& leaf) {
+        using t = vector_traits<V>;
+        const T x = t::x(row), y = t::y(row), z = t::z(row);
+        const T a = x * (leaf.middle[0] - t::x(centre)), b = y * (leaf.middle[1] - t::y(centre)),
+                c = z * (leaf.middle[2] - t::z(centre));
+        return {a + b + c, abs(x) * leaf.half[0] + abs(y) * leaf.half[1] + abs(z) * leaf.half[2] +
+                               rounding * (abs(a) + abs(b) + abs(c))};
+    }
+
+    /// False only if no vertex of the leaf lies in the footprint: whose box the leaf meets, at a corner.
+    [[nodiscard]] bool may_reach(const Splat<V, F>& splat, std::uint32_t number) const {
+        const EyePathLeaf<T>& leaf = map_->leaf(number);
+        const auto least2 = [&](const V& row) {
+            const Range range = range_of(row, splat.centre, leaf);
+            return square((std::max)(T(0), abs(range.middle) - range.reach));
+        };
+        return !(least2(splat.row_a) + least2(splat.row_b) > T(1) + rounding);
+    }
+
+    /// Whether all vertices of the leaf certainly lie within the normal distance.
+    [[nodiscard]] bool within_slab(const Splat<V, F>& splat, std::uint32_t number) const {
+        const Range range = range_of(splat.row_n, splat.centre, map_->leaf(number));
+        return abs(range.middle) + range.reach < T(1) - rounding;
+    }
+
     /// Adds one photon to the vertices of one leaf.
     void splat_leaf(const Splat<V, F>& splat, std::uint32_t leaf) {
         using t = vector_traits<V>;
@@ -198,14 +233,19 @@ private:
         const T cx = t::x(splat.centre), cy = t::y(splat.centre), cz = t::z(splat.centre);
         const T ax = t::x(splat.row_a), ay = t::y(splat.row_a), az = t::z(splat.row_a);
         const T bx = t::x(splat.row_b), by = t::y(splat.row_b), bz = t::z(splat.row_b);
-        const T nx = t::x(splat.row_n), ny = t::y(splat.row_n), nz = t::z(splat.row_n);
         const auto kernel = policies_.kernel;
         for (std::size_t i = 0; i < size; ++i) {
             const T dx = x[i] - cx, dy = y[i] - cy, dz = z[i] - cz;
             const T a = ax * dx + ay * dy + az * dz;
             const T b = bx * dx + by * dy + bz * dz;
-            const T off = nx * dx + ny * dy + nz * dz;
-            weight[i] = keep_if(off * off < T(1), kernel(a * a + b * b));
+            weight[i] = kernel(a * a + b * b);
+        }
+        if (!within_slab(splat, leaf)) {
+            const T nx = t::x(splat.row_n), ny = t::y(splat.row_n), nz = t::z(splat.row_n);
+            for (std::size_t i = 0; i < size; ++i) {
+                const T off = nx * (x[i] - cx) + ny * (y[i] - cy) + nz * (z[i] - cz);
+                weight[i] = keep_if(off * off < T(1), weight[i]);
+            }
         }
         if (facing(leaf, splat) == 0) {
             const T px = t::x(splat.normal), py = t::y(splat.normal), pz = t::z(splat.normal);
@@ -229,10 +269,12 @@ private:
         }
     }
 
+    static constexpr T rounding = T(64) * std::numeric_limits<T>::epsilon(); ///< of what is compared with 1
+
     const EyePathMap<V>* map_;
     Policies policies_;
     Response response_;
-    std::vector<F> sums_;                      // by slot
+    std::vector<F> sums_; // by slot
     std::vector<std::size_t> bin_begin_, bin_end_;
     std::vector<const Splat<V, F>*> bins_;
 };

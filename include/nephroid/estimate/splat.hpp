@@ -134,7 +134,11 @@ template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collaps
 
     const T scale = abs(area_scale(ellipse));
     const FilterMatrix<V> filter = filter_matrix(ellipse);
-    const T thickness = (std::max)(T(policies.normal_distance) * radii(ellipse).minor, spacing);
+    // The minor radius is no longer than the root of their product: most footprints need not be asked for it.
+    const T normal_distance = T(policies.normal_distance);
+    const T thickness = square(normal_distance) * scale < square(spacing)
+                            ? spacing
+                            : (std::max)(normal_distance * radii(ellipse).minor, spacing);
     const T inverse_thickness = T(1) / thickness, inverse_scale = T(1) / scale;
     const F peak = deposit.flux * inverse_scale;
     if (!all_finite(filter.row_a) || !all_finite(filter.row_b) || !isfinite(inverse_thickness) ||

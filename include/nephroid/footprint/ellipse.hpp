@@ -41,14 +41,24 @@ template <class W>
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/// a × b. Of floats in double, where their products are exact: what cancels then does so without an error.
+template <Vector3 V>
+[[nodiscard]] Wide3<V> wide_cross(const Wide3<V>& a, const Wide3<V>& b) {
+    using W = wider_t<scalar_t<V>>;
+    const auto difference = [](const W& p, const W& q, const W& r, const W& s) {
+        if constexpr (std::is_same_v<W, scalar_t<V>>)
+            return difference_of_products<W>(p, q, r, s);
+        else
+            return p * q - r * s;
+    };
+    return {difference(a[1], b[2], a[2], b[1]), difference(a[2], b[0], a[0], b[2]),
+            difference(a[0], b[1], a[1], b[0])};
+}
+
 /// n · (a × b)
 template <Vector3 V>
 [[nodiscard]] wider_t<scalar_t<V>> wide_area(const V& a, const V& b, const V& normal) {
-    const Wide3<V> u = widened(a), v = widened(b);
-    using W = wider_t<scalar_t<V>>;
-    return wide_dot<W>(widened(normal), {difference_of_products(u[1], v[2], u[2], v[1]),
-                                         difference_of_products(u[2], v[0], u[0], v[2]),
-                                         difference_of_products(u[0], v[1], u[1], v[0])});
+    return wide_dot(widened(normal), wide_cross<V>(widened(a), widened(b)));
 }
 } // namespace detail
 
@@ -100,8 +110,14 @@ struct FilterMatrix {
 /// Source: Frisvad et al. 2014, eq. 12.
 template <Vector3 V>
 [[nodiscard]] FilterMatrix<V> filter_matrix(const Ellipse<V>& ellipse) {
-    const scalar_t<V> inverse = scalar_t<V>(1) / area_scale(ellipse);
-    return {inverse * cross(ellipse.b, ellipse.normal), inverse * cross(ellipse.normal, ellipse.a)};
+    using T = scalar_t<V>;
+    using W = wider_t<T>;
+    const auto a = detail::widened(ellipse.a), b = detail::widened(ellipse.b), n = detail::widened(ellipse.normal);
+    const W inverse = W(1) / detail::wide_dot(n, detail::wide_cross<V>(a, b));
+    const auto row = [&](const detail::Wide3<V>& v) {
+        return make_vector<V>(T(inverse * v[0]), T(inverse * v[1]), T(inverse * v[2]));
+    };
+    return {row(detail::wide_cross<V>(b, n)), row(detail::wide_cross<V>(n, a))};
 }
 
 /// The ratio of the minor to the major radius, σ_min/σ_max, in [0, 1]; 1 is a circle, and so is a point.

@@ -78,6 +78,8 @@ struct BoundMajorRadius {
     [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V> diagonal) const {
         using T = scalar_t<V>;
         const T bound = T(diagonals) * diagonal;
+        if (length2(ellipse.a) + length2(ellipse.b) < square(bound)) // as the major radius is no longer than that
+            return Verdict::kept;
         const auto sigma = radii(ellipse);
         if (sigma.major <= bound || !(bound > T(0)))
             return Verdict::kept;

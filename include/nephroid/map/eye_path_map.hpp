@@ -6,6 +6,7 @@
 #include "nephroid/map/spacing.hpp"
 
 #include <functional>
+#include <numeric>
 #include <ranges>
 
 namespace nephroid {
@@ -13,6 +14,7 @@ namespace nephroid {
 /// What the splatter knows of a leaf beyond its points.
 template <Scalar T>
 struct EyePathLeaf {
+    std::array<T, 3> middle, half; ///< of its box, relative to the tree's origin; half its extents
     Box<T> normals; ///< the components of its vertices' normals: one test for a whole leaf that faces a photon
     T spacing;      ///< of neighbouring vertices, world units: one pixel's footprint on the surface; 0 if unknown
 };
@@ -35,12 +37,14 @@ public:
     /// Throws std::invalid_argument naming the vertex whose position or normal is not finite or not of unit length.
     template <std::ranges::random_access_range Vertices, class Position, class Normal>
     EyePathMap(const Vertices& vertices, Position position, Normal normal)
-        : tree_(std::size_t(std::ranges::size(vertices)),
-                [&](std::size_t i) -> V { return std::invoke(position, at(vertices, i)); }, "nephroid::EyePathMap") {
+        : tree_(
+              std::size_t(std::ranges::size(vertices)),
+              [&](std::size_t i) -> V { return std::invoke(position, at(vertices, i)); }, "nephroid::EyePathMap") {
         gather_normals(vertices, normal);
         leaves_.reserve(tree_.leaves().size());
-        for (const TreeLeaf& leaf : tree_.leaves())
-            leaves_.push_back({normal_bounds(leaf), leaf_spacing(leaf)});
+        for (const TreeNode<T>& node : tree_.nodes())
+            if (node.leaf != no_leaf)
+                append_leaf(tree_.leaves()[node.leaf], node.box);
         fill_unknown_spacings();
         const Box<T>& box = tree_.bounds();
         for (std::size_t axis = 0; !tree_.empty() && axis < 3; ++axis)
@@ -74,24 +78,35 @@ private:
     void gather_normals(const Vertices& vertices, Normal& normal) {
         using t = vector_traits<V>;
         for (auto& component : normals_)
-            component.reserve(tree_.slots());
+            component.resize(tree_.slots());
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
             const V n = std::invoke(normal, at(vertices, tree_.index(slot)));
             if (!(abs(length2(n) - T(1)) < T(0.01)))
                 invalid_argument("nephroid::EyePathMap: vertex " + std::to_string(tree_.index(slot)) +
                                  " has the normal " + detail::text_of(n) + "; normals must be of unit length");
-            normals_[0].push_back(t::x(n));
-            normals_[1].push_back(t::y(n));
-            normals_[2].push_back(t::z(n));
+            normals_[0][slot] = t::x(n), normals_[1][slot] = t::y(n), normals_[2][slot] = t::z(n);
+        }
+    }
+
+    /// Leaves come in their own order, as the nodes do.
+    void append_leaf(const TreeLeaf& leaf, const Box<T>& box) {
+        leaves_.push_back({{}, {}, normal_bounds(leaf), leaf_spacing(leaf)});
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            leaves_.back().middle[axis] = T(0.5) * box.low[axis] + T(0.5) * box.high[axis];
+            leaves_.back().half[axis] = T(0.5) * box.high[axis] - T(0.5) * box.low[axis];
         }
     }
 
     [[nodiscard]] Box<T> normal_bounds(const TreeLeaf& leaf) const {
         Box<T> box;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto first = normals_[axis].begin() + std::ptrdiff_t(leaf.first);
-            const auto [low, high] = std::minmax_element(first, first + std::ptrdiff_t(leaf.size));
-            box.low[axis] = *low, box.high[axis] = *high;
+            const T* const component = normals_[axis].data() + leaf.first;
+            T low = component[0], high = low;
+            for (std::size_t i = 1; i < leaf.size; ++i) {
+                low = (std::min)(low, component[i]);
+                high = (std::max)(high, component[i]);
+            }
+            box.low[axis] = low, box.high[axis] = high;
         }
         return box;
     }
@@ -99,10 +114,11 @@ private:
     /// From the vertices around the leaf's middle, its own and its neighbours', so that leaves of any shape will do.
     [[nodiscard]] T leaf_spacing(const TreeLeaf& leaf) const {
         const T* const coordinates[3] = {tree_.x(), tree_.y(), tree_.z()};
-        std::array<T, 3> middle{T(0), T(0), T(0)};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (std::uint32_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
-                middle[axis] = middle[axis] + coordinates[axis][slot] / T(leaf.size);
+        std::array<T, 3> middle;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const T* const first = coordinates[axis] + leaf.first;
+            middle[axis] = std::accumulate(first, first + leaf.size, T(0)) / T(leaf.size);
+        }
 
         constexpr std::size_t wanted = 24;
         std::array<Neighbour<T>, wanted> found;

@@ -6,12 +6,13 @@
 /// of small distances.
 #pragma once
 
+#include "nephroid/map/build_tree.hpp"
+#include "nephroid/map/tree_node.hpp"
+#include "nephroid/map/wide_tree.hpp"
 #include "nephroid/transport/executor.hpp"
 #include "nephroid/vector/algebra.hpp"
 #include "nephroid/vector/error.hpp"
 #include "nephroid/vector/text.hpp"
-
-#include <nanoflann.hpp>
 
 #include <algorithm>
 #include <array>
@@ -21,32 +22,10 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nephroid {
-
-/// An axis-aligned box relative to a tree's origin.
-template <Scalar T>
-struct Box {
-    std::array<T, 3> low, high;
-
-    [[nodiscard]] bool overlaps(const Box& other) const {
-        // Bitwise: the three axes are tested without a branch each.
-        return bool(int(low[0] <= other.high[0]) & int(other.low[0] <= high[0]) & int(low[1] <= other.high[1]) &
-                    int(other.low[1] <= high[1]) & int(low[2] <= other.high[2]) & int(other.low[2] <= high[2]));
-    }
-};
-
-/// A kd-tree's nodes in depth-first order. A query that misses a node's box goes on at `skip`, one that meets it at
-/// the next node: the walk needs no stack, whatever the depth.
-template <Scalar T>
-struct TreeNode {
-    Box<T> box;         ///< tight about the node's points
-    std::uint32_t skip; ///< the node after this one's subtree
-    std::uint32_t leaf; ///< its leaf, or `no_leaf`
-};
-
-inline constexpr std::uint32_t no_leaf = (std::numeric_limits<std::uint32_t>::max)();
 
 /// A point found by `PointTree::nearest`.
 template <Scalar T>
@@ -113,13 +92,6 @@ private:
 };
 } // namespace detail
 
-/// Slots [first, first + size) of the leaf order hold points; up to the next multiple of `PointTree::lanes` they
-/// repeat the last one, so that loops over whole lanes read nothing foreign.
-struct TreeLeaf {
-    std::uint32_t first;
-    std::uint32_t size;
-};
-
 template <Vector3 V>
 class PointTree {
 public:
@@ -134,9 +106,16 @@ public:
     PointTree(std::size_t count, Position&& position, const char* who = "nephroid::PointTree") {
         if (count >= no_leaf / 2)
             invalid_argument(std::string(who) + ": " + std::to_string(count) + " points are more than 2^31");
-        Cloud cloud = gather(count, position, who);
-        if (count > 0)
-            lay_out(cloud);
+        const detail::PointCloud<T> cloud = gather(count, position, who);
+        if (count == 0)
+            return;
+        detail::TreeBuilder<T> built(cloud, leaf_size, lanes);
+        nodes_ = std::move(built.nodes);
+        leaves_ = std::move(built.leaves);
+        index_ = std::move(built.index);
+        coordinates_ = std::move(built.coordinates);
+        bounds_ = nodes_.front().box;
+        wide_ = detail::WideTree<T>(nodes_);
     }
 
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
@@ -184,21 +163,13 @@ public:
         }
         if (!nodes_.empty())
             bounds_ = nodes_.front().box;
+        wide_.refit(nodes_);
     }
 
     /// Calls visit(leaf) for every leaf whose box overlaps this one, in leaf order.
     template <class Visit>
     void visit_leaves(const Box<T>& box, Visit&& visit) const {
-        for (std::size_t i = 0; i < nodes_.size();) {
-            const TreeNode<T>& node = nodes_[i];
-            if (!node.box.overlaps(box)) {
-                i = node.skip;
-                continue;
-            }
-            if (node.leaf != no_leaf)
-                visit(node.leaf);
-            ++i;
-        }
+        wide_.visit_leaves(nodes_, box, visit);
     }
 
     /// The leaf whose box is nearest to a point (relative to the origin), by the boxes' Chebyshev distance; the tree
@@ -206,31 +177,7 @@ public:
     [[nodiscard]] std::uint32_t nearest_leaf(const V& relative_position) const {
         using t = vector_traits<V>;
         const std::array<T, 3> p = {t::x(relative_position), t::y(relative_position), t::z(relative_position)};
-        const auto distance_to = [&](const TreeNode<T>& node) {
-            T distance(0);
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                distance = (std::max)({distance, node.box.low[axis] - p[axis], p[axis] - node.box.high[axis]});
-            return distance;
-        };
-
-        // Down to a near leaf first: most points lie in it, and for the others it leaves little to search.
-        const std::size_t start = descend(distance_to);
-        std::uint32_t found = nodes_[start].leaf;
-        T best = distance_to(nodes_[start]);
-        for (std::size_t i = 0; i < nodes_.size();) {
-            const TreeNode<T>& node = nodes_[i];
-            const T distance = distance_to(node);
-            if (!(distance < best)) {
-                i = node.skip;
-                continue;
-            }
-            if (node.leaf != no_leaf) {
-                best = distance;
-                found = node.leaf;
-            }
-            ++i;
-        }
-        return found;
+        return wide_.nearest_leaf(nodes_, p);
     }
 
     /// Squared distances from a place (relative to the origin) to the points in `lanes` slots from this one on.
@@ -303,21 +250,22 @@ private:
     template <class Accept>
     void take_leaf(const TreeLeaf& leaf, const std::array<T, 3>& p, detail::NearestHeap<T>& heap,
                    const Accept& accept) const {
-        // First without a branch, as which points are wanted is anybody's guess; the few that are then one by one.
-        std::array<Neighbour<T>, leaf_size> wanted;
-        std::size_t count = 0;
+        // First without a branch, as which points are wanted is anybody's guess; the few that are then one by one, before
+        // the next lanes are looked at, of which fewer are wanted for it.
+        std::array<Neighbour<T>, lanes> wanted;
         for (std::uint32_t first = 0; first < leaf.size; first += lanes) {
             std::array<T, lanes> distance2;
             distances2(leaf.first + first, p, distance2);
             const std::size_t size = (std::min)(lanes, std::size_t(leaf.size - first));
+            std::size_t count = 0;
             for (std::size_t i = 0; i < size; ++i) {
                 wanted[count] = {distance2[i], std::uint32_t(leaf.first + first + i)};
                 count += std::size_t(heap.wants(distance2[i]));
             }
+            for (std::size_t i = 0; i < count; ++i)
+                if (heap.wants(wanted[i].distance2) && accept(std::size_t(wanted[i].slot)))
+                    heap.take(wanted[i]);
         }
-        for (std::size_t i = 0; i < count; ++i)
-            if (heap.wants(wanted[i].distance2) && accept(std::size_t(wanted[i].slot)))
-                heap.take(wanted[i]);
     }
 
     template <class Accept>
@@ -335,29 +283,6 @@ private:
         }
     }
 
-    /// The points as nanoflann asks for them.
-    struct Cloud {
-        std::vector<std::array<T, 3>> points;
-        [[nodiscard]] std::size_t kdtree_get_point_count() const { return points.size(); }
-        [[nodiscard]] T kdtree_get_pt(std::size_t i, std::size_t axis) const { return points[i][axis]; }
-        template <class Bounds>
-        bool kdtree_get_bbox(Bounds&) const {
-            return false;
-        }
-    };
-    using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<T, Cloud>, Cloud, 3, std::uint32_t>;
-
-    /// The node of a leaf that lies near, by always taking the nearer child.
-    template <class Distance>
-    [[nodiscard]] std::size_t descend(const Distance& distance_to) const {
-        std::size_t node = 0;
-        while (nodes_[node].leaf == no_leaf) {
-            const std::size_t first = node + 1, second = nodes_[first].skip;
-            node = distance_to(nodes_[first]) <= distance_to(nodes_[second]) ? first : second;
-        }
-        return node;
-    }
-
     /// Repeats a leaf's last point up to whole lanes, and draws its box.
     void refit_leaf(const TreeLeaf& leaf, Box<T>& box) {
         const std::size_t last = leaf.first + leaf.size - 1;
@@ -371,9 +296,9 @@ private:
     }
 
     template <class Position>
-    [[nodiscard]] Cloud gather(std::size_t count, Position&& position, const char* who) {
+    [[nodiscard]] detail::PointCloud<T> gather(std::size_t count, Position&& position, const char* who) {
         using t = vector_traits<V>;
-        Cloud cloud;
+        detail::PointCloud<T> cloud;
         cloud.points.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const V p = position(i);
@@ -409,81 +334,12 @@ private:
         return middle;
     }
 
-    void lay_out(const Cloud& cloud) {
-        const Index tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
-        // nanoflann 1.5 renamed the members that hold the tree.
-        if constexpr (requires { tree.vAcc_; })
-            lay_out(cloud, tree.vAcc_, tree.root_node_);
-        else
-            lay_out(cloud, tree.vAcc, tree.root_node);
-        bounds_ = nodes_.front().box;
-    }
-
-    template <class Order, class Node>
-    void lay_out(const Cloud& cloud, const Order& order, const Node* root) {
-        // Depth-first with a stack of its own: clustered points make trees deeper than a call stack should be.
-        struct Pending {
-            const Node* node;
-            std::size_t parent;
-        };
-        constexpr std::size_t none = (std::numeric_limits<std::size_t>::max)();
-        std::vector<Pending> pending{{root, none}};
-        std::vector<std::size_t> parents;
-        while (!pending.empty()) {
-            const auto [node, parent] = pending.back();
-            pending.pop_back();
-            const std::size_t self = nodes_.size();
-            nodes_.push_back({{}, 0, no_leaf});
-            parents.push_back(parent);
-            if (node->child1 == nullptr) {
-                nodes_[self].leaf = std::uint32_t(leaves_.size());
-                append_leaf(cloud, order, node->node_type.lr.left, node->node_type.lr.right, nodes_[self].box);
-            } else {
-                pending.push_back({node->child2, self});
-                pending.push_back({node->child1, self});
-            }
-        }
-        // Children follow their parents: one pass backwards makes the inner boxes and the skips.
-        for (TreeNode<T>& node : nodes_)
-            if (node.leaf == no_leaf)
-                node.box = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-        for (std::size_t i = nodes_.size(); i-- > 0;) {
-            nodes_[i].skip = (std::max)(nodes_[i].skip, std::uint32_t(i + 1));
-            if (parents[i] == none)
-                continue;
-            TreeNode<T>& parent = nodes_[parents[i]];
-            parent.skip = (std::max)(parent.skip, nodes_[i].skip);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                parent.box.low[axis] = (std::min)(parent.box.low[axis], nodes_[i].box.low[axis]);
-                parent.box.high[axis] = (std::max)(parent.box.high[axis], nodes_[i].box.high[axis]);
-            }
-        }
-    }
-
-    template <class Order>
-    void append_leaf(const Cloud& cloud, const Order& order, std::size_t from, std::size_t to, Box<T>& box) {
-        box = {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-        leaves_.push_back({std::uint32_t(index_.size()), std::uint32_t(to - from)});
-        const auto append = [&](std::uint32_t i) {
-            index_.push_back(i);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const T coordinate = cloud.points[i][axis];
-                coordinates_[axis].push_back(coordinate);
-                box.low[axis] = (std::min)(box.low[axis], coordinate);
-                box.high[axis] = (std::max)(box.high[axis], coordinate);
-            }
-        };
-        for (std::size_t slot = from; slot < to; ++slot)
-            append(std::uint32_t(order[slot]));
-        while (index_.size() % lanes != 0)
-            append(std::uint32_t(order[to - 1]));
-    }
-
     static constexpr T infinity = std::numeric_limits<T>::infinity();
 
     V origin_ = zero_vector<V>();
     Box<T> bounds_{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
     std::vector<TreeNode<T>> nodes_;
+    detail::WideTree<T> wide_;
     std::vector<TreeLeaf> leaves_;
     std::vector<std::uint32_t> index_;
     std::array<std::vector<T>, 3> coordinates_;

@@ -62,7 +62,7 @@ public:
     [[nodiscard]] bool start() {
         ++account_.emitted.photons;
         if (emitted_power_ > 0 && isfinite(emitted_power_)) {
-            account_.emitted.flux += emitted_power_;
+            account_.emitted.add(emitted_power_);
             return true;
         }
         // A light may emit nothing in a direction; what is no number at all has no place in a sum.

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+/// @file  Times taken by Google Benchmark, in turn, so that a busy machine slows all of them alike.
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace nephroid::examples::benchmarks {
+
+/// How long to measure. The defaults are short; a quiet machine needs no more.
+struct Effort {
+    double seconds = 0.04;    ///< of each repetition, at least
+    unsigned repetitions = 5; ///< the least time of these counts: what a neighbour takes away is never added
+    bool full = false;        ///< the large sizes too
+};
+
+/// What is timed: `run` is called again and again, and does `items` pieces of work each time.
+struct Task {
+    double items;
+    std::function<void()> run;
+    bool threads = false; ///< wall clock, as several threads' processor time says nothing
+};
+
+/// Keeps the least time of each task; prints nothing.
+class LeastTimes : public benchmark::BenchmarkReporter {
+public:
+    explicit LeastTimes(const std::vector<Task>& tasks)
+        : tasks_(&tasks), seconds_(tasks.size(), std::numeric_limits<double>::infinity()) {}
+
+    bool ReportContext(const Context&) override { return true; }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        for (const Run& run : runs) {
+            if (run.run_type != Run::RT_Iteration)
+                continue;
+            const auto task = std::size_t(std::stoul(run.run_name.function_name));
+            const double seconds = (*tasks_)[task].threads ? run.real_accumulated_time : run.cpu_accumulated_time;
+            seconds_[task] = (std::min)(seconds_[task], seconds / double(run.iterations) / (*tasks_)[task].items);
+        }
+    }
+    [[nodiscard]] const std::vector<double>& seconds() const { return seconds_; }
+
+private:
+    const std::vector<Task>* tasks_;
+    std::vector<double> seconds_;
+};
+
+/// Seconds of processor time (of wall clock where a task says so) for one item of each task.
+[[nodiscard]] inline std::vector<double> seconds_per_item(const Effort& effort, const std::vector<Task>& tasks) {
+    static const bool initialised = [] {
+        std::array<char, 10> name{"benchmark"};
+        std::array<char, 46> interleave{"--benchmark_enable_random_interleaving=true"};
+        std::array<char*, 3> arguments{name.data(), interleave.data(), nullptr};
+        int count = 2;
+        benchmark::Initialize(&count, arguments.data());
+        return true;
+    }();
+    (void)initialised;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+        benchmark::RegisterBenchmark(std::to_string(i).c_str(),
+                                     [&run = tasks[i].run](benchmark::State& state) {
+                                         for (auto _ : state)
+                                             run();
+                                     })
+            ->MinTime(effort.seconds)
+            ->Repetitions(int(effort.repetitions));
+    }
+    LeastTimes times(tasks);
+    benchmark::RunSpecifiedBenchmarks(&times);
+    benchmark::ClearRegisteredBenchmarks();
+    return times.seconds();
+}
+
+} // namespace nephroid::examples::benchmarks

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+/// @file  What photons are benchmarked in: a wavy sheet of water as a mesh, by the examples' own tree and by Embree.
+#pragma once
+
+#include "common/benchmark/points.hpp"
+#include "common/scene.hpp"
+
+#include "nephroid/emission/light/directional.hpp"
+
+#if defined(NEPHROID_EXAMPLES_HAS_EMBREE)
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+#endif
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace nephroid::examples::benchmarks {
+
+/// 2 side² triangles with smooth normals over the unit square and a little beyond, crests at z = 1.02.
+[[nodiscard]] inline MeshData<float> wavy_sheet(std::size_t side) {
+    MeshData<float> data;
+    const double amplitude = 0.02, tau = 2 * std::numbers::pi;
+    for (std::size_t i = 0; i < (side + 1) * (side + 1); ++i) {
+        const double x = 1.1 * double(i % (side + 1)) / double(side) - 0.05;
+        const double y = 1.1 * double(i / (side + 1)) / double(side) - 0.05;
+        const double phase = tau * (2 * x + y), other = tau * (x - 3 * y), slope = amplitude / 2 * tau;
+        const Vec normal(-slope * (2 * std::cos(phase) + std::cos(other)),
+                         -slope * (std::cos(phase) - 3 * std::cos(other)), 1);
+        data.positions.push_back(Vec(x, y, 1 + amplitude / 2 * (std::sin(phase) + std::sin(other))));
+        data.normals.push_back(normalize(normal));
+    }
+    for (std::size_t row = 0; row < side; ++row)
+        for (std::size_t column = 0; column < side; ++column) {
+            const auto a = std::uint32_t(row * (side + 1) + column), b = std::uint32_t(a + side + 1);
+            data.triangles.push_back({a, a + 1, b});
+            data.triangles.push_back({a + 1, b + 1, b});
+        }
+    data.materials.assign(data.triangles.size(), 1);
+    return data;
+}
+
+/// Water over a floor.
+[[nodiscard]] inline Scene<float, float> water_scene(MeshData<float> sheet) {
+    return Scene<float, float>({{Floor<float>(0), 0}, {TriangleMesh<float>(std::move(sheet)), 1}},
+                               {Material<float>::diffuse(1), Material<float>::dielectric(1.33, false)});
+}
+
+/// From above, straight down, onto the unit square.
+[[nodiscard]] inline DirectionalLight<Vec, float> sun() {
+    return DirectionalLight<Vec, float>(
+        {.direction = {0, 0, -1}, .irradiance = 1, .patch = Parallelogram<Vec>{{0, 0, 1.25f}, {1, 0, 0}, {0, 1, 0}}});
+}
+
+#if defined(NEPHROID_EXAMPLES_HAS_EMBREE)
+/// A mesh in Embree.
+class EmbreeMesh {
+public:
+    explicit EmbreeMesh(const MeshData<float>& data) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
+        const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* const p = static_cast<float*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), data.positions.size()));
+        for (std::size_t i = 0; i < data.positions.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis)
+                p[3 * i + std::size_t(axis)] = data.positions[i][axis];
+        auto* const t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
+            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), data.triangles.size()));
+        for (std::size_t i = 0; i < 3 * data.triangles.size(); ++i)
+            t[i] = data.triangles[i / 3][i % 3];
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometry(scene_, geometry);
+        rtcReleaseGeometry(geometry);
+        rtcCommitScene(scene_);
+    }
+    EmbreeMesh(const EmbreeMesh&) = delete;
+    EmbreeMesh& operator=(const EmbreeMesh&) = delete;
+    ~EmbreeMesh() {
+        rtcReleaseScene(scene_);
+        rtcReleaseDevice(device_);
+    }
+
+    /// @param coherent  tells Embree that rays come in an order
+    [[nodiscard]] std::optional<Candidate> nearest(const Ray<float>& ray, bool coherent = false) const {
+        RTCRayHit r;
+        r.ray.org_x = ray.origin.x, r.ray.org_y = ray.origin.y, r.ray.org_z = ray.origin.z, r.ray.tnear = ray.t_min;
+        r.ray.dir_x = ray.direction.x, r.ray.dir_y = ray.direction.y, r.ray.dir_z = ray.direction.z;
+        r.ray.tfar = ray.t_max, r.ray.time = 0, r.ray.mask = ~0u, r.ray.flags = 0;
+        r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+        RTCIntersectArguments arguments;
+        rtcInitIntersectArguments(&arguments);
+        if (coherent)
+            arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+        rtcIntersect1(scene_, &r, &arguments);
+#else
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        if (coherent)
+            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+        rtcIntersect1(scene_, &context, &r);
+#endif
+        if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+            return std::nullopt;
+        return Candidate{r.ray.tfar, r.hit.u, r.hit.v, r.hit.primID};
+    }
+
+private:
+    RTCDevice device_;
+    RTCScene scene_;
+};
+
+/// The water scene over Embree: the same hits and the same surfaces, found by Embree's rays.
+class EmbreeWater {
+public:
+    using vector = Vec;
+    using flux_type = float;
+
+    /// @param scene  of `water_scene`; is referred to
+    explicit EmbreeWater(const Scene<float, float>& scene)
+        : scene_(&scene), mesh_(std::get<TriangleMesh<float>>(scene.parts()[1].shape)), embree_(mesh_.data()),
+          floor_(0) {}
+
+    [[nodiscard]] std::optional<Hit<float>> intersect(const Vec& origin, const Vec& direction, float t_min,
+                                                      float t_max) const {
+        const Ray<float> ray{origin, direction, t_min, t_max};
+        if (const auto water = embree_.nearest(ray)) // nothing lies above it
+            return mesh_.hit(ray, *water);
+        const auto ground = floor_.nearest(ray, wide(t_max));
+        return ground ? std::optional(floor_.hit(ray, *ground)) : std::nullopt;
+    }
+
+    template <class Sampler>
+    [[nodiscard]] Bounce<float, float> scatter(const Hit<float>& hit, const Vec& direction, Sampler& sampler) const {
+        return scene_->scatter(hit, direction, sampler);
+    }
+
+private:
+    const Scene<float, float>* scene_;
+    const TriangleMesh<float>& mesh_;
+    EmbreeMesh embree_;
+    Floor<float> floor_;
+};
+#endif
+
+} // namespace nephroid::examples::benchmarks
