@@ -247,9 +247,10 @@ private:
                         turned(photons[i]->tangents, cell.frame.turn_of(photons[i]->frame)), away, rest * rest);
             }
         });
-        if (!fit.solve(cell.map, cell.samples_by_step))
+        double rough = 0;
+        if (!fit.solve(cell.map, cell.samples_by_step, rough))
             return;
-        cell.log_q = log_bending(bending(cell.map, options_.photons), options_.bounds);
+        cell.log_q = log_bending(bending(cell.map, options_.photons, 1, rough), options_.bounds);
         cell.is_resolved = std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);
     }
 

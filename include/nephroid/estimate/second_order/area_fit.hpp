@@ -4,10 +4,12 @@
 
 #include "nephroid/estimate/second_order/area_cells.hpp"
 #include "nephroid/estimate/second_order/emission_frame.hpp"
-#include "nephroid/estimate/second_order/path_derivatives.hpp"
+#include "nephroid/estimate/second_order/roughness.hpp"
 #include "nephroid/vector/least_squares.hpp"
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace nephroid {
@@ -47,8 +49,9 @@ public:
 
     /// @param result           J, H, and T (0 where there are too few photons)
     /// @param samples_by_step  how the samples change with σ
+    /// @param rough            `roughness` of the photons about there
     /// @return  whether the photons determine J, H, M and where the samples are 0
-    [[nodiscard]] bool solve(PathDerivatives& result, std::array<Plane2, 4>& samples_by_step) const {
+    [[nodiscard]] bool solve(PathDerivatives& result, std::array<Plane2, 4>& samples_by_step, double& rough) const {
         LeastSquares<4, double> place_of_zero;
         for (std::size_t i = 0; i < 4; ++i) {
             std::array<double, 5> s;
@@ -61,25 +64,47 @@ public:
         if (!place_of_zero.solve(4, zero))
             return false;
 
-        constexpr std::size_t unknowns = 13, without_third = 9;
+        constexpr std::size_t without_third = 9;
         LeastSquares<unknowns, Space3> equations;
+        double heaviest = 0;
+        for (const Neighbour& photon : photons_)
+            heaviest = (std::max)(heaviest, photon.weight);
+        std::vector<std::pair<Row, Row>> rows_about;
+        std::vector<TangentResidual> about;
         for (const Neighbour& photon : photons_) {
             const Plane2 place = photon.at.place + Plane2{-zero[0], -zero[1]};
             const Plane2 direction = photon.at.direction + Plane2{-zero[2], -zero[3]};
             const Plane2 s = 0.5 * (place + direction), t = 0.5 * (place + -1.0 * direction);
             const double xx = 0.5 * s.x * s.x, xy = s.x * s.y, yy = 0.5 * s.y * s.y;
-            equations.add({1, 0, s.x, s.y, 0, t.x, t.y, 0, 0, xx, xy, yy, 0}, photon.tangents.u, photon.weight);
-            equations.add({0, 1, 0, s.x, s.y, 0, 0, t.x, t.y, 0, xx, xy, yy}, photon.tangents.v, photon.weight);
+            const Row u{1, 0, s.x, s.y, 0, t.x, t.y, 0, 0, xx, xy, yy, 0},
+                v{0, 1, 0, s.x, s.y, 0, 0, t.x, t.y, 0, xx, xy, yy};
+            equations.add(u, photon.tangents.u, photon.weight);
+            equations.add(v, photon.tangents.v, photon.weight);
+            if (photon.weight > 0.4 * heaviest) { // all would take long to compare
+                rows_about.emplace_back(u, v);
+                about.push_back({{s.x, s.y, t.x, t.y}, {photon.tangents.u, photon.tangents.v}, {}});
+            }
         }
-        std::array<Space3, unknowns> x;
+        std::array<Space3, unknowns> x{};
         if ((photons_.size() < 12 || !equations.solve(unknowns, x)) &&
             (photons_.size() < 8 || !equations.solve(without_third, x)))
             return false;
         result = {{x[0], x[1]}, {x[2], x[3], x[4]}, {x[9], x[10], x[11], x[12]}};
+        for (std::size_t i = 0; i < about.size(); ++i) {
+            about[i].unexplained = about[i].tangents;
+            for (std::size_t k = 0; k < unknowns; ++k) {
+                about[i].unexplained[0] += -rows_about[i].first[k] * x[k];
+                about[i].unexplained[1] += -rows_about[i].second[k] * x[k];
+            }
+        }
+        rough = roughness(about);
         return true;
     }
 
 private:
+    static constexpr std::size_t unknowns = 13;
+    using Row = std::array<double, unknowns>;
+
     struct Neighbour {
         AreaStep at;
         TangentPair tangents;

@@ -9,10 +9,10 @@
 
 namespace nephroid {
 
-/// J of a photon at a displacement from where a map's derivatives are, in their axes.
-struct TangentSample {
-    Plane2 at;
-    std::array<Space3, 2> tangents;
+/// A photon's J, and what of it a map does not explain.
+struct TangentResidual {
+    std::array<double, 4> at; ///< emission coordinates, in u0; those that a light does not have are 0
+    std::array<Space3, 2> tangents, unexplained;
 };
 
 /// The mean over the photons of |J⁻¹ΔJ|²/|δ|², per u0²: by what the nearest photon's J differs that the map does not
@@ -22,13 +22,15 @@ struct TangentSample {
 /// would only show them.
 ///
 /// @return  0 for fewer than two photons
-[[nodiscard]] inline double roughness(const PathDerivatives& map, std::span<const TangentSample> photons) {
+[[nodiscard]] inline double roughness(std::span<const TangentResidual> photons) {
     if (photons.size() < 2)
         return 0;
     constexpr double most = 0.15;
-    const auto unexplained = [&](const TangentSample& photon) {
-        const auto fitted = tangents_at(map, photon.at);
-        return std::array<Space3, 2>{photon.tangents[0] - fitted[0], photon.tangents[1] - fitted[1]};
+    const auto distance2_between = [](const TangentResidual& a, const TangentResidual& b) {
+        double sum = 0;
+        for (std::size_t axis = 0; axis < 4; ++axis)
+            sum += square(b.at[axis] - a.at[axis]);
+        return sum;
     };
     const auto size2 = [](const std::array<Space3, 2>& tangents, const std::array<Space3, 2>& jump) {
         const detail::EmissionPullback pull_back(tangents);
@@ -36,20 +38,18 @@ struct TangentSample {
         return inner(u, u) + inner(v, v);
     };
     double sum = 0;
-    for (const TangentSample& a : photons) {
-        const TangentSample* nearest = nullptr;
+    for (const TangentResidual& a : photons) {
+        const TangentResidual* nearest = nullptr;
         double distance2 = std::numeric_limits<double>::infinity();
-        for (const TangentSample& b : photons) {
-            const Plane2 step = b.at + -1.0 * a.at;
-            if (&b != &a && inner(step, step) < distance2) {
-                distance2 = inner(step, step);
+        for (const TangentResidual& b : photons)
+            if (const double d2 = distance2_between(a, b); &b != &a && d2 < distance2) {
+                distance2 = d2;
                 nearest = &b;
             }
-        }
         if (nearest == nullptr || !(distance2 > 0))
             continue;
-        const auto here = unexplained(a), there = unexplained(*nearest);
-        const std::array<Space3, 2> jump{there[0] - here[0], there[1] - here[1]};
+        const std::array<Space3, 2> jump{nearest->unexplained[0] - a.unexplained[0],
+                                         nearest->unexplained[1] - a.unexplained[1]};
         // By the wider of the two: what is folded flat would make any jump a large one.
         sum += (std::min)(most, (std::min)(size2(a.tangents, jump), size2(nearest->tangents, jump)) / distance2);
     }

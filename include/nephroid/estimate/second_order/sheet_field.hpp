@@ -177,7 +177,7 @@ private:
         const Plane2 to_middle = cell.metric(grid_.step_between(cell.frame_sample, middle));
         const double cell_area = std::abs(cell.metric.determinant()) / double(grid_.size());
         const double reach2 = 1.44 * cell_area; // 1.2 cells
-        std::vector<TangentSample> here;
+        std::vector<TangentResidual> here;
         PathFit fit;
         for_each_around(cell, [&](const Cell& other, double) {
             for (const std::uint32_t i : grid_.photons(other.square)) {
@@ -194,18 +194,21 @@ private:
                 if (!std::isfinite(inner(tangents[0], tangents[0]) + inner(tangents[1], tangents[1])))
                     continue; // will be an invalid splat, and must not be its neighbours' end
                 const PlaneMatrix axes = photon.frame.axes_of(cell.frame);
-                const TangentSample sample{at,
-                                           {axes.first.x * tangents[0] + axes.first.y * tangents[1],
-                                            axes.second.x * tangents[0] + axes.second.y * tangents[1]}};
-                fit.add(sample.at, sample.tangents, rest * rest);
+                const std::array<Space3, 2> by_axes{axes.first.x * tangents[0] + axes.first.y * tangents[1],
+                                                    axes.second.x * tangents[0] + axes.second.y * tangents[1]};
+                fit.add(at, by_axes, rest * rest);
                 if (&other == &cell)
-                    here.push_back(sample);
+                    here.push_back({{at.x, at.y, 0, 0}, by_axes, {}});
             }
         });
         cell.is_resolved = fit.solve(cell.map);
         if (!cell.is_resolved)
             return;
-        const Symmetric2 q = bending(cell.map, options_.photons, density_.share, roughness(cell.map, here));
+        for (TangentResidual& photon : here) {
+            const auto fitted = tangents_at(cell.map, {photon.at[0], photon.at[1]});
+            photon.unexplained = {photon.tangents[0] - fitted[0], photon.tangents[1] - fitted[1]};
+        }
+        const Symmetric2 q = bending(cell.map, options_.photons, density_.share, roughness(here));
         cell.log_q = log_bending(q, options_.bounds);
         cell.is_resolved = cell.is_resolved && std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);
     }
