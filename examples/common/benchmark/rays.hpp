@@ -42,7 +42,7 @@ inline void benchmark_rays(const Effort& effort) {
             const auto ours = [&] {
                 hits = 0;
                 for (const auto& ray : rays)
-                    hits += mesh.nearest(ray, wide(ray.t_max)).has_value();
+                    hits += mesh.nearest(ray, wide_t<float>(ray.t_max)).has_value();
                 benchmark::DoNotOptimize(hits);
             };
             const auto theirs = [&] {

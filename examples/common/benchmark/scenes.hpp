@@ -84,7 +84,7 @@ public:
     }
 
     /// @param coherent  tells Embree that rays come in an order
-    [[nodiscard]] std::optional<Candidate> nearest(const Ray<float>& ray, bool coherent = false) const {
+    [[nodiscard]] std::optional<Candidate<float>> nearest(const Ray<float>& ray, bool coherent = false) const {
         RTCRayHit r;
         r.ray.org_x = ray.origin.x, r.ray.org_y = ray.origin.y, r.ray.org_z = ray.origin.z, r.ray.tnear = ray.t_min;
         r.ray.dir_x = ray.direction.x, r.ray.dir_y = ray.direction.y, r.ray.dir_z = ray.direction.z;
@@ -105,7 +105,7 @@ public:
 #endif
         if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
             return std::nullopt;
-        return Candidate{r.ray.tfar, r.hit.u, r.hit.v, r.hit.primID};
+        return Candidate<float>{r.ray.tfar, r.hit.u, r.hit.v, r.hit.primID};
     }
 
 private:
@@ -129,7 +129,7 @@ public:
         const Ray<float> ray{origin, direction, t_min, t_max};
         if (const auto water = embree_.nearest(ray)) // nothing lies above it
             return mesh_.hit(ray, *water);
-        const auto ground = floor_.nearest(ray, wide(t_max));
+        const auto ground = floor_.nearest(ray, wide_t<float>(t_max));
         return ground ? std::optional(floor_.hit(ray, *ground)) : std::nullopt;
     }
 

@@ -102,7 +102,10 @@ public:
         const auto from_deposits = [&] {
             nephroid::detail::splat_in_batches(
                 splatter, PhotonPass{.count = deposits_.size()},
-                [&](std::uint64_t i, Statistics&) { return std::optional(deposits_[i]); }, serial_);
+                [&](std::uint64_t i, DiskSplatter::Chunk& chunk, Statistics& account) {
+                    chunk.add(splatter, deposits_[i], account);
+                },
+                serial_);
         };
         std::vector<DiskSplatter::Chunk> chunks(1);
         const auto ready = [&] {
