@@ -101,10 +101,18 @@ struct Hit {
     bool receives;
 };
 
+#if defined(GLASS) || defined(WAVELENGTH)
+#define REFRACTION
+#endif
+
 struct Bounce {
     nephroid::Event event;
     F weight;
-    T eta;
+#if defined(REFRACTION)
+    T eta = T(1);
+#else
+    static constexpr bool refracts = false;
+#endif
 #if defined(MEDIUM)
     int medium = 1;
 #endif
@@ -157,11 +165,11 @@ struct Planes {
     template <class Sampler>
     [[nodiscard]] Bounce scatter(const Hit& hit, const V&, Sampler&) const {
         if (hit.receives)
-            return {nephroid::Event::deposit, mirror.weight, T(1)};
-#if defined(GLASS) || defined(WAVELENGTH)
+            return {nephroid::Event::deposit, mirror.weight};
+#if defined(REFRACTION)
         return {nephroid::Event::refract, mirror.weight, mirror.eta};
 #else
-        return {nephroid::Event::reflect, mirror.weight, T(1)};
+        return {nephroid::Event::reflect, mirror.weight};
 #endif
     }
 

@@ -73,7 +73,7 @@ awk "BEGIN { exit !($emission > $base_emission) }" || fail "an area light's tang
 "$cxx" $flags -O0 -fno-inline -DNONE -c "$root/tests/programs/features.cpp" -o plain.o
 nm --demangle plain.o >symbols.txt
 grep -q 'nephroid::Flat::operator()' symbols.txt || fail "no symbols"
-for unused in ShapeOperator ParametricCurvature InterpolatedCurvature AnyCurvature FiniteDifference reemit AreaEmission \
+for unused in Refraction ShapeOperator ParametricCurvature InterpolatedCurvature AnyCurvature FiniteDifference reemit AreaEmission \
     QuadLight PointLight LightSet WithoutTangents; do
     ! grep -q "$unused" symbols.txt || fail "$unused is compiled though nothing uses it"
 done

@@ -25,3 +25,13 @@ TEST_CASE("scattering: a forgotten answer absorbs without a gain") {
     CHECK(forgotten.event == Event::absorb);
     CHECK(forgotten.weight == 0);
 }
+
+TEST_CASE("scattering: a mirror's answer has no index of refraction and is asked for none") {
+    using S = MirrorScattering<float>;
+    CHECK(S::absorb().event == Event::absorb);
+    CHECK(S::deposit().event == Event::deposit);
+    CHECK(S::reflect(0.5f).event == Event::reflect);
+    CHECK(S::reflect(0.5f).weight == 0.5f);
+    static_assert(!detail::refracts<S>);
+    static_assert(detail::refracts<Scattering<float, float>>);
+}

@@ -711,3 +711,36 @@ TEST_CASE_TEMPLATE("walk: takes any vector", T, float, double) {
         CHECK(std::abs(double(t::y(deposit->position)) - 1) <= 32 * epsilon<T>);
     });
 }
+
+// A mirror below and a ceiling, whose answers know no refraction.
+template <class Answer>
+struct RoomWithoutGlass {
+    Event event = Event::reflect;
+
+    std::optional<SurfaceHit<glm::dvec3, Flat>> intersect(const glm::dvec3& o, const glm::dvec3& d, double,
+                                                          double) const {
+        const double floor = d.z < 0 ? 0 : 2, distance = (floor - o.z) / d.z;
+        const glm::dvec3 p = o + distance * d, n{0, 0, 1};
+        return SurfaceHit<glm::dvec3, Flat>{distance, p, n, n, {}, rounding_error(o, distance, p), floor > 1 ? 1u : 0u};
+    }
+    Answer scatter(const SurfaceHit<glm::dvec3, Flat>& hit, const glm::dvec3&, Constant&) const {
+        Answer answer;
+        answer.event = hit.surface == 0 ? event : Event::deposit;
+        answer.weight = 1;
+        return answer;
+    }
+};
+
+TEST_CASE("walk: a scene of mirrors needs no index of refraction") {
+    Statistics with, without;
+    const auto photon = collimated<double>({0, 0, 1}, {0.5, 0, -1});
+    const auto expected = follow(RoomWithoutGlass<Scattering<double, double>>{}, photon, with);
+    const auto deposit = follow(RoomWithoutGlass<MirrorScattering<double>>{}, photon, without);
+    REQUIRE((expected && deposit));
+    CHECK(deposit->position == expected->position);
+    CHECK(deposit->d_position[0] == expected->d_position[0]);
+    CHECK(deposit->d_position[1] == expected->d_position[1]);
+    // Refracting all the same is a mistake, and is counted as one.
+    CHECK(!follow(RoomWithoutGlass<MirrorScattering<double>>{Event::refract}, photon, without));
+    CHECK(without[Fate::invalid].photons == 1);
+}

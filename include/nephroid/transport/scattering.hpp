@@ -18,7 +18,8 @@ enum class Event : unsigned char {
 ///
 /// The answer of a scene's `scatter`. Your own type with these members will do as well; `eta` is only read for
 /// Event::refract, and a type may have a further member `medium` (the one that a refracted ray enters, for scenes
-/// with absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent).
+/// with absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent). A type of a scene without
+/// glass does without `eta` and says so: `static constexpr bool refracts = false`. Then no refraction is compiled.
 ///
 /// ```cpp
 /// // Glass that reflects or refracts by chance, each with its Fresnel term over its probability: both weights are 1.
@@ -38,5 +39,28 @@ struct Scattering {
     [[nodiscard]] static Scattering reflect(const F& weight) { return {Event::reflect, weight, T(1)}; }
     [[nodiscard]] static Scattering refract(const F& weight, T eta) { return {Event::refract, weight, eta}; }
 };
+
+/// The answer of a scene of mirrors.
+template <Flux F>
+struct MirrorScattering {
+    static constexpr bool refracts = false;
+
+    Event event = Event::absorb;
+    F weight = flux_traits<F>::zero(); ///< the flux is multiplied by this
+
+    [[nodiscard]] static MirrorScattering absorb() { return {}; }
+    [[nodiscard]] static MirrorScattering deposit() { return {Event::deposit, flux_traits<F>::zero()}; }
+    [[nodiscard]] static MirrorScattering reflect(const F& weight) { return {Event::reflect, weight}; }
+};
+
+namespace detail {
+template <class Scattering>
+inline constexpr bool refracts = [] {
+    if constexpr (requires { Scattering::refracts; })
+        return bool(Scattering::refracts);
+    else
+        return true;
+}();
+} // namespace detail
 
 } // namespace nephroid

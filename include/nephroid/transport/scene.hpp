@@ -38,7 +38,9 @@ template <class S, class V, class Sampler>
 concept Scatters = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& v, Sampler& sampler) {
     { scene.scatter(hit, v, sampler).event } -> std::convertible_to<Event>;
     {scene.scatter(hit, v, sampler).weight};
-    { scene.scatter(hit, v, sampler).eta } -> std::convertible_to<scalar_t<V>>;
+    requires !detail::refracts<std::remove_cvref_t<decltype(scene.scatter(hit, v, sampler))>> || requires {
+        { scene.scatter(hit, v, sampler).eta } -> std::convertible_to<scalar_t<V>>;
+    };
 };
 
 /// All that a photon's walk needs. One object: a renderer's scene, or a small struct that points at it.

@@ -180,8 +180,10 @@ private:
     template <class Scattering>
     [[nodiscard]] bool bend_about(const V& normal, const V& geometric_normal, const H& hit,
                                   const Scattering& scattering) {
-        if (scattering.event == Event::refract)
-            if (const auto refracted = refraction(photon_.direction, normal, T(scattering.eta))) {
+        if (scattering.event == Event::refract) {
+            if constexpr (!refracts<Scattering>) {
+                return false; // it said that it never would
+            } else if (const auto refracted = refraction(photon_.direction, normal, T(scattering.eta))) {
                 if (!(dot(refracted->direction(), geometric_normal) < T(0)))
                     return false;
                 follow(*refracted, normal, hit, scattering);
@@ -189,6 +191,7 @@ private:
                     medium_ = scattering.medium;
                 return true;
             }
+        }
         const Reflection<V> reflected(photon_.direction, normal);
         if (!(dot(photon_.direction, normal) < T(0)) || !(dot(reflected.direction(), geometric_normal) > T(0)))
             return false;
