@@ -116,13 +116,17 @@ TEST_CASE("features: edges of intensity and of colour are found where density ha
         return std::abs(p.x - 0.5f) < 0.005f && std::abs(p.y - 0.5f) < 0.4f;
     };
     const auto inside = [](const glm::vec3& p) { return std::abs(p.x - 0.25f) < 0.1f && std::abs(p.y - 0.5f) < 0.35f; };
+    // A thousand photons with the edge amid them: one group of five that is taken for a feature is not to decide.
+    const auto about_edge = [](const glm::vec3& p) {
+        return std::abs(p.x - 0.5f) < 0.08f && std::abs(p.y - 0.5f) < 0.4f;
+    };
     for (const auto& [left, right] :
          {std::pair{Rgb(1), Rgb(10)}, {Rgb(1, 0, 0), Rgb(0, 1, 0)}, {Rgb(1, 0, 0), Rgb(1)}}) {
         const Held edge = held(lit(left, right), at_edge);
         CHECK(edge.weight > 0.95);
         CHECK(edge.along > 0.85);
         CHECK(held(lit(left, right), inside).weight < 0.05);
-        CHECK(held(lit(left, right), at_edge, {0, 1, 0}, RelaxationOptions{.flux_features = false}).weight < 0.05);
+        CHECK(held(lit(left, right), about_edge, {0, 1, 0}, RelaxationOptions{.flux_features = false}).weight < 0.05);
     }
 }
 
