@@ -56,63 +56,63 @@ public:
     /// @param who               the caller's name for error messages
     /// Throws std::invalid_argument naming the photon whose position or normal is not finite or not of unit length.
     template <class Photons, class Access>
-        requires ReadsPhotons<Access, Photons> PhotonCloud(Photons& photons, const Access& access,
-                                                           double cos_same_surface, const char* who)
-            : tree_(
-                  std::size_t(std::ranges::size(photons)),
-                  [&](std::size_t i) -> V { return std::invoke(access.position, detail::photon_at(photons, i)); }, who),
-              cos_same_surface_(T(cos_same_surface)) {
-            normals_.reserve(tree_.slots());
-            for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
-                const V n = std::invoke(access.normal, detail::photon_at(photons, tree_.index(slot)));
-                if (!(abs(length2(n) - T(1)) < T(0.01)))
-                    invalid_argument(std::string(who) + ": photon " + std::to_string(tree_.index(slot)) +
-                                     " has the normal " + detail::text_of(n) + "; normals must be of unit length");
-                normals_.push_back(n);
-            }
-            fluxes_.reserve(tree_.slots());
-            for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
-                fluxes_.push_back(std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))));
+    PhotonCloud(Photons& photons, const Access& access, double cos_same_surface,
+                const char* who) requires ReadsPhotons<Access, Photons>
+        : tree_(
+              std::size_t(std::ranges::size(photons)),
+              [&](std::size_t i) -> V { return std::invoke(access.position, detail::photon_at(photons, i)); }, who),
+          cos_same_surface_(T(cos_same_surface)) {
+        normals_.reserve(tree_.slots());
+        for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
+            const V n = std::invoke(access.normal, detail::photon_at(photons, tree_.index(slot)));
+            if (!(abs(length2(n) - T(1)) < T(0.01)))
+                invalid_argument(std::string(who) + ": photon " + std::to_string(tree_.index(slot)) +
+                                 " has the normal " + detail::text_of(n) + "; normals must be of unit length");
+            normals_.push_back(n);
         }
+        fluxes_.reserve(tree_.slots());
+        for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
+            fluxes_.push_back(std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))));
+    }
 
-        /// Writes positions back to the photons they came from.
-        template <class Photons, class Access, class E>
-            requires MovesPhotons<Access, Photons>
-        void write_positions(Photons& photons, const Access& access, E& executor) const {
-            detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
-                std::invoke(access.position, detail::photon_at(photons, tree_.index(slot))) =
-                    tree_.origin() + position(slot);
-            });
-        }
-        /// The same for fluxes.
-        template <class Photons, class Access, class E>
-            requires MovesPhotons<Access, Photons>
-        void write_fluxes(Photons& photons, const Access& access, E& executor) const {
-            detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
-                std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))) = fluxes_[slot];
-            });
-        }
+    /// Writes positions back to the photons they came from.
+    template <class Photons, class Access, class E>
+        requires MovesPhotons<Access, Photons>
+    void write_positions(Photons& photons, const Access& access, E& executor) const {
+        detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
+            std::invoke(access.position, detail::photon_at(photons, tree_.index(slot))) =
+                tree_.origin() + position(slot);
+        });
+    }
+    /// The same for fluxes.
+    template <class Photons, class Access, class E>
+        requires MovesPhotons<Access, Photons>
+    void write_fluxes(Photons& photons, const Access& access, E& executor) const {
+        detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
+            std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))) = fluxes_[slot];
+        });
+    }
 
-        [[nodiscard]] const PointTree<V>& tree() const { return tree_; }
-        [[nodiscard]] PointTree<V>& tree() { return tree_; }
+    [[nodiscard]] const PointTree<V>& tree() const { return tree_; }
+    [[nodiscard]] PointTree<V>& tree() { return tree_; }
 
-        /// Relative to the tree's origin.
-        [[nodiscard]] V position(std::size_t slot) const {
-            return make_vector<V>(tree_.x()[slot], tree_.y()[slot], tree_.z()[slot]);
-        }
-        [[nodiscard]] const V& normal(std::size_t slot) const { return normals_[slot]; }
-        [[nodiscard]] const F& flux(std::size_t slot) const { return fluxes_[slot]; }
-        [[nodiscard]] const std::vector<F>& fluxes() const { return fluxes_; }
-        [[nodiscard]] std::vector<F>& fluxes() { return fluxes_; }
-        [[nodiscard]] bool same_surface(std::size_t a, std::size_t b) const {
-            return dot(normals_[a], normals_[b]) >= cos_same_surface_;
-        }
+    /// Relative to the tree's origin.
+    [[nodiscard]] V position(std::size_t slot) const {
+        return make_vector<V>(tree_.x()[slot], tree_.y()[slot], tree_.z()[slot]);
+    }
+    [[nodiscard]] const V& normal(std::size_t slot) const { return normals_[slot]; }
+    [[nodiscard]] const F& flux(std::size_t slot) const { return fluxes_[slot]; }
+    [[nodiscard]] const std::vector<F>& fluxes() const { return fluxes_; }
+    [[nodiscard]] std::vector<F>& fluxes() { return fluxes_; }
+    [[nodiscard]] bool same_surface(std::size_t a, std::size_t b) const {
+        return dot(normals_[a], normals_[b]) >= cos_same_surface_;
+    }
 
-    private:
-        PointTree<V> tree_;
-        std::vector<V> normals_;
-        std::vector<F> fluxes_;
-        T cos_same_surface_;
+private:
+    PointTree<V> tree_;
+    std::vector<V> normals_;
+    std::vector<F> fluxes_;
+    T cos_same_surface_;
 };
 
 namespace detail {
