@@ -129,6 +129,8 @@ inline constexpr bool is_scalar<Dual<T, N>> = true;
 
 } // namespace nephroid
 
-/// Those of the value, as far as they are not functions of T alone.
+/// @cond  Doxygen looks for the class in nephroid
+// Those of the value, as far as they are not functions of T alone.
 template <class T, std::size_t N>
 class std::numeric_limits<nephroid::Dual<T, N>> : public std::numeric_limits<T> {};
+/// @endcond
