@@ -3,6 +3,7 @@
 #include "common/caustics/builtin.hpp"
 #include "common/caustics/file_scene.hpp"
 #include "common/image/file.hpp"
+#include "common/image/pfm.hpp"
 #include "common/image/png.hpp"
 #include "common/image/write.hpp"
 
@@ -19,7 +20,12 @@ int main(int argc, char** argv) {
         if (options->json)
             require_writable(*options->json);
 
-        const Rendering rendering = is_builtin(options->scene) ? render_builtin(*options) : render_file(*options);
+        std::optional<Samples> reference;
+        if (options->reference)
+            reference = read_pfm(*options->reference);
+        Rendering rendering = is_builtin(options->scene) ? render_builtin(*options) : render_file(*options);
+        if (reference)
+            rendering.report.errors = errors_against(*reference, rendering.picture);
         write_image(options->output, rendering.picture, rendering.exposure);
         if (options->json)
             write_file(*options->json, json_text(*options, rendering.report));

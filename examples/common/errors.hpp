@@ -2,6 +2,8 @@
 /// @file  How wrong a picture of irradiance is, by the measures of the papers and of nephroid's tables.
 #pragma once
 
+#include "common/image/image.hpp"
+
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -22,5 +24,10 @@ struct Errors {
 [[nodiscard]] std::optional<Errors> errors_against(const std::vector<double>& reference,
                                                    const std::vector<float>& irradiance, std::size_t width,
                                                    std::size_t height);
+
+/// Of colours the mean of the channels is compared.
+///
+/// Throws std::runtime_error that says which sizes do not match, or that a sample is not finite.
+[[nodiscard]] std::optional<Errors> errors_against(const Samples& reference, const Samples& picture);
 
 } // namespace nephroid::examples

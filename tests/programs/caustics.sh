@@ -104,6 +104,13 @@ refuses() { # words in the message, arguments
     [ ! -e refused.png ] || fail "left a picture behind: $*"
 }
 printf 'glTF\002\000\000\000\100\000\000\000' >broken.glb
+# A picture against another one: itself, and one of another size.
+"$caustics" ring-disk --photons 2000 --size 32 --output own.pfm >/dev/null
+"$caustics" ring-disk --photons 2000 --size 32 --output own.pfm --reference own.pfm --json own.json >own.txt
+grep -q "against own.pfm" own.txt || fail "does not compare: $(cat own.txt)"
+at_most "$(value own.json rel)" 0 "a picture against itself"
+refuses "32 x 32" ring-disk --photons 2000 --size 40 --reference own.pfm
+refuses "no-such.pfm" ring --reference no-such.pfm
 refuses "no-such.glb" no-such.glb
 refuses "broken.glb" broken.glb
 refuses "photons" ring --photons 0

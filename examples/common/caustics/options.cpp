@@ -67,7 +67,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     app.add_option("--size", size, "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
     app.add_option("--samples", options.samples, "Eye paths per pixel [1]");
     std::string kernel = "biweight", sequence = "halton", filter = "on", fresnel = "off", reflection = "any";
-    std::string layer = "all", output, json;
+    std::string layer = "all", output, json, reference;
     app.add_option("--kernel", kernel, "biweight|epanechnikov|cone|uniform|gaussian [biweight]");
     app.add_option("--sequence", sequence, "halton|sobol|random [halton]");
     app.add_option("--seed", seed, "Of the sequence [0]");
@@ -80,6 +80,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     app.add_option("--layer", layer, "all|caustics|direct: of a file's picture [all]");
     app.add_option("--output", output, "The picture, .exr, .pfm or .png [the scene's name, .png]");
     app.add_option("--json", json, "A file for the statistics");
+    app.add_option("--reference", reference, "A .pfm of the same size to compare with, of many photons, say");
     if (!parse(app, argc, argv))
         return std::nullopt;
     options.photons = whole_number("--photons", photons, 1);
@@ -104,6 +105,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     options.output = !output.empty() ? output : std::filesystem::path(options.scene).stem().string() + ".png";
     if (!json.empty())
         options.json = json;
+    if (!reference.empty())
+        options.reference = reference;
     check(options);
     return options;
 }

@@ -38,6 +38,7 @@ struct Options {
     Layer layer = Layer::all;                         ///< of a file's picture
     std::filesystem::path output;                     ///< the picture: .exr, .pfm or .png
     std::optional<std::filesystem::path> json;        ///< the statistics
+    std::optional<std::filesystem::path> reference;   ///< a .pfm to compare the picture with
 };
 
 /// Reads the command line.

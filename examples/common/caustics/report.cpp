@@ -81,7 +81,7 @@ void print_table(std::ostream& out, const Options& options, const Report& report
     line(out, "unaccounted", text("%.2g", emitted - statistics.accounted_flux()));
 
     if (report.errors) {
-        out << "against the exact picture\n";
+        out << "against " << (options.reference ? options.reference->string() : "the exact picture") << '\n';
         line(out, "rel", text("%.4f", report.errors->relative));
         line(out, "clipped RMSE", text("%.4f", report.errors->rmse));
         line(out, "SSIM", std::isfinite(report.errors->ssim) ? text("%.4f", report.errors->ssim) : "-");
