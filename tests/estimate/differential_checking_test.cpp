@@ -139,6 +139,7 @@ TEST_CASE("differential checking: says which option cannot be") {
     CHECK(complaint({}) == "none");
     CHECK(complaint({.least = 1}).starts_with("renderer: checking.least is 1"));
     CHECK(complaint({.growth = 0.5}).starts_with("renderer: checking.growth is 0.5"));
+    CHECK(complaint({.growth = 1e30}).starts_with("renderer: checking.growth is 1e+30"));
     CHECK(complaint({.significance = 0}).starts_with("renderer: checking.significance is 0"));
     CHECK(complaint({.resolution = -1}).starts_with("renderer: checking.resolution is -1"));
 }

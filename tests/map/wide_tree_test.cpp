@@ -8,6 +8,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
 #include <vector>
 
 using namespace nephroid;
@@ -119,4 +122,20 @@ TEST_CASE("tree builder: leaves hold most of what they can") {
     const double mean = 100'000.0 / double(built.leaves.size());
     CHECK(mean > 64 * 0.85);
     CHECK(mean <= 64);
+}
+
+TEST_CASE("wide tree: a box without an end meets every leaf once") {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Box<double> everything{{-infinity, -infinity, -infinity}, {infinity, infinity, infinity}};
+    for (const bool clustered : {false, true})
+        for (const int count : {1, 2, 7, 9, 300}) {
+            const Nodes nodes = spread(count, clustered);
+            const detail::WideTree<double> wide{nodes};
+            std::vector<std::uint32_t> met;
+            wide.visit_leaves(std::span<const TreeNode<double>>(nodes), everything,
+                              [&](std::uint32_t leaf) { met.push_back(leaf); });
+            CHECK(met.size() == std::size_t(count));
+            for (std::size_t i = 0; i < met.size(); ++i)
+                CHECK(met[i] == i);
+        }
 }

@@ -116,8 +116,8 @@ private:
     /// With R the scale and δ the error of a normal, the truncation (h/R)²/R and the rounding δ/h balance at
     /// h = R δ^(1/3). A normal that was computed from a position p far from the origin is off by ε (1 + |p|/R).
     [[nodiscard]] T step(T scale) const {
-        const double r(scale), far(largest_component(position_)), epsilon(std::numeric_limits<T>::epsilon());
-        return T(std::cbrt(epsilon * r * r * (r + far)));
+        const double r(scale), away(largest_component(position_)), epsilon(std::numeric_limits<T>::epsilon());
+        return T(std::cbrt(epsilon * r * r * (r + away)));
     }
 
     [[nodiscard]] static V nothing_known() {

@@ -30,7 +30,7 @@ namespace nephroid {
 /// Goldenshluger and Nemirovski 1997, "On spatially adaptive estimation of nonparametric regression".
 struct DifferentialChecking {
     std::size_t least = 32;    ///< photons at the first look, >= 2
-    double growth = 1.25;      ///< photons at a look over those at the one before, > 1
+    double growth = 1.25;      ///< photons at a look over those at the one before, > 1, <= 1e6
     double significance = 2.5; ///< half width of an interval, in standard deviations of a random count, > 0
     double resolution = 0;     ///< photons nearer than this are always taken, world units, >= 0
 };
@@ -40,9 +40,9 @@ inline void check(const DifferentialChecking& checking, const char* who) {
     if (checking.least < 2)
         invalid_argument(std::string(who) + ": checking.least is " + std::to_string(checking.least) +
                          "; it must be at least 2");
-    if (!(checking.growth > 1))
+    if (!(checking.growth > 1) || !(checking.growth <= 1e6))
         invalid_argument(std::string(who) + ": checking.growth is " + text_of(checking.growth) +
-                         "; it must be greater than 1");
+                         "; it must be greater than 1 and at most a million");
     if (!(checking.significance > 0))
         invalid_argument(std::string(who) + ": checking.significance is " + text_of(checking.significance) +
                          "; it must be positive");

@@ -95,7 +95,8 @@ private:
         std::array<std::uint32_t, width> overlap;
 #pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
         for (std::size_t i = 0; i < width; ++i)
-            overlap[i] = std::uint32_t(int(node.low[0][i] <= box.high[0]) & int(box.low[0] <= node.high[0][i]) &
+            overlap[i] = std::uint32_t(int(node.source[i] != no_leaf) & // a box may be endless
+                                       int(node.low[0][i] <= box.high[0]) & int(box.low[0] <= node.high[0][i]) &
                                        int(node.low[1][i] <= box.high[1]) & int(box.low[1] <= node.high[1][i]) &
                                        int(node.low[2][i] <= box.high[2]) & int(box.low[2] <= node.high[2][i]));
         return overlap;

@@ -93,7 +93,9 @@ void diffuse_flux(Photons&& photons, const Access& access, const RelaxationOptio
     Cloud cloud(photons, access, options.cos_same_surface, "nephroid::diffuse_flux");
     if (options.flux_diffusion == FluxDiffusion::none || options.iterations == 0)
         return;
-    detail::Relaxer<Cloud> relaxer(cloud, options, executor);
+    RelaxationOptions without_target = options; // which only moves ask for
+    without_target.pilot_neighbours = 0;
+    detail::Relaxer<Cloud> relaxer(cloud, without_target, executor);
     relaxer.diffuse(executor);
     for (unsigned i = 1; i < options.iterations; ++i)
         relaxer.exchange_flux(executor);

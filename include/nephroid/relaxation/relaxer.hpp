@@ -89,7 +89,6 @@ public:
     void diffuse(E& executor) {
         for_each_neighbourhood(executor, [](std::uint32_t, std::size_t, std::span<Neighbour<T>>) {});
         exchange_flux(executor);
-        radius_ = next_radius_;
     }
 
     /// The same again, for photons that have not moved.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/estimate/second_order/footprint_field.hpp"
 
+#include "nephroid/transport/executor.hpp"
+
 #include "estimate/second_order/maps.hpp"
 #include "support/space.hpp"
 

@@ -68,3 +68,13 @@ TEST_CASE("second-order policy: what cannot be is named") {
     check({.largest_shift = nan}, "largest_shift is nan");
     check({.pilot = 0}, "pilot is 0");
 }
+
+TEST_CASE("second-order policy: the largest footprint is the same part of the domain from 80000 photons on") {
+    const SmoothingBounds bounds{.least = 4, .least_radius = 3, .largest_radius = 20, .stretch = 5};
+    CHECK(bounds_for(bounds, 100).largest_radius == 20);
+    CHECK(bounds_for(bounds, 80000).largest_radius == 20);
+    CHECK(bounds_for(bounds, 320000).largest_radius == 40); // u0 is half of what it was
+    CHECK(bounds_for(bounds, 320000).least == 4);
+    CHECK(bounds_for(bounds, 320000).least_radius == 3);
+    CHECK(bounds_for(bounds, 320000).stretch == 5);
+}

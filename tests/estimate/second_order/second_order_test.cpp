@@ -138,8 +138,10 @@ TEST_CASE("second order: where footprints narrow towards a border the light stay
     const auto identity = [](double u, double v) { return Landing{{u, v, 0}, {1, 0, 0}, {0, 1, 0}}; };
     const auto all = photons_of(identity, lattice(std::size_t(side), std::size_t(side)));
     // As if from so many photons that a straight map would have footprints without end.
+    constexpr double many = 1e9;
+    const double largest = 110 / std::sqrt(many / 80000); // grows to 110 with them
     const Footprints footprints =
-        footprints_of(all, {.policy = {.bounds = {.largest_radius = 110}}, .stratified = true, .photons = 1e9});
+        footprints_of(all, {.policy = {.bounds = {.largest_radius = largest}}, .stratified = true, .photons = many});
     std::vector<Vertex> vertices;
     for (double d = 16; d <= 24; d += 0.5)
         vertices.push_back({D(d * unit_of(photons), 0.5, 0)});

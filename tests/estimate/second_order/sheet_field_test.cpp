@@ -3,6 +3,8 @@
 
 #include "nephroid/estimate/second_order/footprint_field.hpp"
 
+#include "nephroid/transport/executor.hpp"
+
 #include "estimate/second_order/maps.hpp"
 #include "support/space.hpp"
 
@@ -152,6 +154,19 @@ TEST_CASE("sheet field: footprints reach as far as the domain's border and no fu
     const Plane2 diagonal{std::sqrt(0.5), std::sqrt(0.5)}, other{std::sqrt(0.5), -std::sqrt(0.5)};
     CHECK(inner(diagonal, corner->shape(diagonal)) == doctest::Approx(half * half).epsilon(1e-9));
     CHECK(inner(other, corner->shape(other)) == doctest::Approx(s2).epsilon(1e-9));
+}
+
+// A kernel with twice the second moment reaches as far with half of S, up to borders too.
+TEST_CASE("sheet field: borders count for a kernel by its own width") {
+    FieldOptions wide = stratified();
+    wide.scale = 0.5;
+    const double columns = side / unit_per_cell;
+    const Field biweight = field_of(affine), other = field_of(affine, wide);
+    for (const double u : {0.5 / columns, 7.5 / columns}) {
+        const auto narrow = at(biweight, affine, u, 7.5 / columns), half = at(other, affine, u, 7.5 / columns);
+        REQUIRE((narrow && half));
+        check_close(half->shape, 0.5 * narrow->shape, 1e-12 * narrow->shape.trace());
+    }
 }
 
 TEST_CASE("sheet field: where paths change there is a border for those on either side") {

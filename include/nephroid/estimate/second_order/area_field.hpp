@@ -319,11 +319,11 @@ private:
             blurred += weight * congruent(cell.frame.turn_of(cells_[other].frame), cells_[other].log_q);
             weights += weight;
         });
-        cell.shape =
-            options_.scale * area_smoothing_tensor((1 / weights) * blurred, options_.stratified, options_.bounds);
+        Symmetric2 shape = area_smoothing_tensor((1 / weights) * blurred, options_.stratified, options_.bounds);
         if (std::isfinite(cell.border_distance))
-            cell.shape = bounded_along(cell.shape, cell.border_direction,
-                                       (std::max)(least_border_radius, 2 * cell.border_distance));
+            shape =
+                bounded_along(shape, cell.border_direction, (std::max)(least_border_radius, 2 * cell.border_distance));
+        cell.shape = options_.scale * shape;
     }
 
     static constexpr double least_border_radius = 8;

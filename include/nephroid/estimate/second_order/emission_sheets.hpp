@@ -8,7 +8,6 @@
 #pragma once
 
 #include "nephroid/estimate/second_order/emission_cells.hpp"
-#include "nephroid/transport/executor.hpp"
 
 #include <array>
 #include <functional>
@@ -140,8 +139,8 @@ private:
         if (around.empty())
             return;
         for (const std::uint32_t photon : cells.photons(cell)) {
-            constexpr double far = std::numeric_limits<double>::infinity();
-            std::array<double, 3> distances{far, far, far};
+            constexpr double endless = std::numeric_limits<double>::infinity();
+            std::array<double, 3> distances{endless, endless, endless};
             Neighbours& nearest = neighbours[photon];
             for (const std::uint32_t i : around) {
                 const Plane2 step = cells.step_between(photons[photon].sample.at, photons[i].sample.at);

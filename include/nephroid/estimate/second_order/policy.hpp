@@ -6,6 +6,7 @@
 #include "nephroid/vector/scalar.hpp"
 #include "nephroid/vector/text.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <string>
@@ -16,9 +17,17 @@ namespace nephroid {
 struct SmoothingBounds {
     double least = 5;           ///< s: smaller footprints show photons
     double least_radius = 2;    ///< along any direction: a sequence is not stratified along thinner ones
-    double largest_radius = 32; ///< along any direction: larger ones cost more than they bring
+    double largest_radius = 32; ///< along any direction: larger ones cost more than they bring. For more than 80,000
+                                ///< photons it grows with their root: as large a part of the light's domain
     double stretch = 8;         ///< longest to shortest radius
 };
+
+/// The bounds for so many photons. A bound that did not grow with them would leave noise of random photons that more
+/// of them do not mend.
+[[nodiscard]] inline SmoothingBounds bounds_for(SmoothingBounds bounds, double photons) {
+    bounds.largest_radius *= std::sqrt((std::max)(1.0, photons / 80000));
+    return bounds;
+}
 
 /// Photons are splatted where they land, all with the same smoothing [Frisvad et al. 2014].
 struct FirstOrder {};
@@ -32,7 +41,7 @@ struct SecondOrder {
               ///< counted. Of it, what follows from footprints that change is a quarter at most
     std::uint64_t pilot = 1u << 16; ///< the field is made from the pass's first photons, this many at most, >= 1
     bool domain_repeats = false; ///< the scene repeats over the light's patch (a tile of endless water, say), so that
-                                 ///< opposite borders of the patch are neighbours
+                                 ///< opposite borders of the patch are neighbours; of no effect on area lights
 };
 
 /// s where none is given: of first order, and of photons about which neither their neighbours say nor the others together.

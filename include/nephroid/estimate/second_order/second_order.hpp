@@ -59,12 +59,13 @@ public:
         }
         fields_.reserve(by_light.size());
         for (const OfOneLight& photons : by_light) {
+            const double emitted = options.photons * double(photons.size()) / double(pilot.size());
             const FieldOptions field{.smoothing = options.smoothing,
                                      .stratified = options.stratified,
                                      .repeats = options.policy.domain_repeats,
                                      .scale = 0.125 / options.second_moment,
-                                     .photons = options.photons * double(photons.size()) / double(pilot.size()),
-                                     .bounds = options.policy.bounds};
+                                     .photons = emitted,
+                                     .bounds = bounds_for(options.policy.bounds, emitted)};
             if (photons.origin.second == 2)
                 fields_.push_back({photons.origin, FootprintField(photons, field, executor)});
             else
@@ -92,7 +93,9 @@ public:
         const std::optional<FieldSample> found = photon.frame.is_regular() ? field_at(photon) : std::nullopt;
         const auto tangents = unit_tangents(deposit);
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
-            const double fallback = photon.sample.dimensions == 2 ? options_.policy.bounds.least : others_;
+            const double fallback = !has_cells(photon.sample)       ? others_
+                                    : photon.sample.dimensions == 2 ? options_.policy.bounds.least
+                                                                    : default_smoothing;
             scale(deposit, T(options_.smoothing.value_or(fallback)));
             if (second != nullptr)
                 *second = {};

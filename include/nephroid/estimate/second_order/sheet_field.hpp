@@ -289,8 +289,12 @@ private:
             blurred += weight * congruent(cell.frame.axes_of(other.frame), other.log_q);
             weights += weight;
         });
-        cell.shape = options_.scale * smoothing_tensor((1 / weights) * blurred, density_, options_.bounds);
+        cell.shape = smoothing_tensor((1 / weights) * blurred, density_, options_.bounds);
+        bound_by_border(cell);
+        cell.shape = options_.scale * cell.shape;
+    }
 
+    void bound_by_border(Cell& cell) const {
         const Plane2 n = cell.border_direction;
         if (!std::isfinite(cell.border_distance))
             return;
@@ -304,7 +308,7 @@ private:
         if (inner(n, n) > 0) {
             cell.shape = bounded_along(cell.shape, n, reach);
         } else {
-            const double most = options_.scale * square(reach);
+            const double most = square(reach);
             const Principal2 principal(cell.shape);
             cell.shape = principal.with((std::min)(principal.larger, most), (std::min)(principal.smaller, most));
         }
