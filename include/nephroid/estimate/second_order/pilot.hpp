@@ -6,6 +6,7 @@
 #include "nephroid/emission/sequence/sequence.hpp"
 #include "nephroid/estimate/photon_pass.hpp"
 #include "nephroid/estimate/second_order/second_order.hpp"
+#include "nephroid/transport/executor.hpp"
 #include "nephroid/transport/trail.hpp"
 
 #include <span>
