@@ -3,6 +3,7 @@
 // reference are fifteen times as many photons, splatted plainly, with footprints half as wide as are best for the few.
 #include "common/builtin_cases.hpp"
 #include "support/first_order.hpp"
+#include "support/is_sanitized.hpp"
 
 #include "nephroid/emission/sequence/random.hpp"
 #include "nephroid/estimate/caustics.hpp"
@@ -20,22 +21,11 @@
 
 using namespace nephroid;
 using namespace nephroid::examples;
+using tests::is_sanitized;
 
 namespace {
 
 using Vec = glm::vec3;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool is_sanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool is_sanitized = true;
-#else
-constexpr bool is_sanitized = false;
-#endif
-#else
-constexpr bool is_sanitized = false;
-#endif
 
 constexpr std::size_t size = 128;
 constexpr std::uint64_t emitted = 87'000; // some 20,000 arrive

@@ -5,6 +5,7 @@
 #include "reference/ring.hpp"
 #include "reference/wave.hpp"
 #include "support/first_order.hpp"
+#include "support/is_sanitized.hpp"
 
 #include "nephroid/emission/sequence/random.hpp"
 #include "nephroid/estimate/caustics.hpp"
@@ -22,22 +23,11 @@
 
 using namespace nephroid;
 using namespace nephroid::examples;
+using tests::is_sanitized;
 
 namespace {
 
 using Vec = glm::vec3;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool is_sanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool is_sanitized = true;
-#else
-constexpr bool is_sanitized = false;
-#endif
-#else
-constexpr bool is_sanitized = false;
-#endif
 
 constexpr std::size_t size = 512;
 constexpr double arrived = 20000;
