@@ -80,11 +80,10 @@ void add_placed(const Footprints& footprints, Photon& photon, const Splatter& sp
 
 /// Whether footprints are to be placed and sized by neighbouring photons: they need differentials for it.
 template <class Policies, class L>
-inline constexpr bool is_second_order = requires(const Policies policies) {
+inline constexpr bool is_second_order = Light<L> && requires(const Policies policies) {
     requires std::derived_from<std::remove_cvref_t<decltype(policies.order)>, SecondOrder>;
     requires std::same_as<std::remove_cvref_t<decltype(policies.shape)>, DifferentialFootprint>;
-}
-&&Light<L>;
+};
 } // namespace detail
 
 /// Emits photons, walks them through the scene and splats them onto an eye path map.
@@ -102,42 +101,42 @@ inline constexpr bool is_second_order = requires(const Policies policies) {
 /// Memory: the splatter's sums, one batch, and the pilot photons of second-order splatting, whatever the number of
 /// photons; while a smoothing is chosen for lights without cells (cross_validation.hpp), the sums twice.
 template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
-          detail::MustBeSequence Sequence = HaltonSequence, class E = SerialExecutor>
-    requires detail::MustBeScene<S, V, Sampler<Sequence>> && detail::MustEmit<L, V, F> && ExecutorArgument<E>
-        Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, Policies, Response>& splatter,
-                                  const PhotonPass& pass, const Sequence& sequence = Sequence{}, E&& executor = E{}) {
-        using T = scalar_t<V>;
-        detail::check(pass, "nephroid::splat_caustics");
-        if constexpr (detail::is_second_order<Policies, L>) {
-            detail::check(splatter.policies().order, "nephroid::splat_caustics");
-            const auto pilot = detail::trace_pilot(scene, light, pass, splatter.policies().order, sequence, executor);
-            auto footprints = detail::footprints_from(pilot, pass, splatter.policies(), double(splatter.map().diagonal()),
-                                                      Sequence::stratified, executor);
-            if (!pass.smoothing)
-                footprints.smooth_others(
-                    detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
-            return detail::splat_in_batches(
-                splatter, pass,
-                [&](std::uint64_t i, auto& chunk, Statistics& account) {
-                    auto photon = pilot.has(pass.first + i)
-                                      ? pilot.take(pass.first + i, account)
-                                      : detail::trace_photon(scene, light, pass, sequence, pass.first + i, account);
-                    if (photon.deposit)
-                        detail::add_placed(footprints, photon, splatter, chunk, account);
-                },
-                executor);
-        } else {
-            const Spread<T> spread = detail::spread_of<T>(pass);
-            return detail::splat_in_batches(
-                splatter, pass,
-                [&](std::uint64_t i, auto& chunk, Statistics& account) {
-                    Sampler<Sequence> sampler(sequence, pass.first + i);
-                    const auto photon = light.emit(sampler, spread);
-                    if (const auto deposit = walk(scene, photon, sampler, pass.limits, account))
-                        chunk.add(splatter, *deposit, account);
-                },
-                executor);
-        }
+          detail::MustBeSequence Sequence = HaltonSequence, ExecutorArgument E = SerialExecutor>
+    requires(detail::MustBeScene<S, V, Sampler<Sequence>> && detail::MustEmit<L, V, F>)
+Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, Policies, Response>& splatter,
+                          const PhotonPass& pass, const Sequence& sequence = Sequence{}, E&& executor = E{}) {
+    using T = scalar_t<V>;
+    detail::check(pass, "nephroid::splat_caustics");
+    if constexpr (detail::is_second_order<Policies, L>) {
+        detail::check(splatter.policies().order, "nephroid::splat_caustics");
+        const auto pilot = detail::trace_pilot(scene, light, pass, splatter.policies().order, sequence, executor);
+        auto footprints = detail::footprints_from(pilot, pass, splatter.policies(), double(splatter.map().diagonal()),
+                                                  Sequence::stratified, executor);
+        if (!pass.smoothing)
+            footprints.smooth_others(
+                detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
+        return detail::splat_in_batches(
+            splatter, pass,
+            [&](std::uint64_t i, auto& chunk, Statistics& account) {
+                auto photon = pilot.has(pass.first + i)
+                                  ? pilot.take(pass.first + i, account)
+                                  : detail::trace_photon(scene, light, pass, sequence, pass.first + i, account);
+                if (photon.deposit)
+                    detail::add_placed(footprints, photon, splatter, chunk, account);
+            },
+            executor);
+    } else {
+        const Spread<T> spread = detail::spread_of<T>(pass);
+        return detail::splat_in_batches(
+            splatter, pass,
+            [&](std::uint64_t i, auto& chunk, Statistics& account) {
+                Sampler<Sequence> sampler(sequence, pass.first + i);
+                const auto photon = light.emit(sampler, spread);
+                if (const auto deposit = walk(scene, photon, sampler, pass.limits, account))
+                    chunk.add(splatter, *deposit, account);
+            },
+            executor);
     }
+}
 
 } // namespace nephroid

@@ -27,10 +27,10 @@
 #include "nephroid/estimate/second_order/area_border.hpp"
 #include "nephroid/estimate/second_order/area_fit.hpp"
 #include "nephroid/estimate/second_order/footprint_field.hpp"
+#include "nephroid/transport/executor.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 #include <span>
@@ -46,8 +46,7 @@ public:
     /// @param executor  runs the fits; the field does not depend on it
     template <class Photons, class E>
     AreaField(const Photons& photons, const FieldOptions& options, E& executor)
-        : AreaField(pointers_to(photons), options,
-                    [&executor](std::size_t count, const Task& task) { executor(count, task); }) {}
+        : AreaField(PathSamples(photons), options, detail::run_by(executor)) {}
 
     /// Nothing where the photons say nothing: too few of them, or none that took the same path.
     [[nodiscard]] std::optional<FieldSample> at(const EmissionSample& drawn, const EmissionFrame& frame,
@@ -84,10 +83,6 @@ public:
     [[nodiscard]] const AreaCells& cells() const { return grid_; }
 
 private:
-    using Task = std::function<void(std::size_t)>;
-    using Runner = std::function<void(std::size_t, const Task&)>;
-    using Samples = std::vector<const PathSample*>;
-
     struct Cell {
         EmissionFrame frame;   ///< of the photon nearest to the middle, of those on the path that most of them took
         PathDerivatives map{}; ///< at the middle; derivatives along the frame's tangents
@@ -100,17 +95,10 @@ private:
         Plane2 border_direction{};
     };
 
-    AreaField(const Samples& photons, const FieldOptions& options, const Runner& run)
+    AreaField(const PathSamples& photons, const FieldOptions& options, const TaskRunner& run)
         : options_(options), samples_(samples_of(photons)), grid_(samples_, counts_of(photons, samples_)),
           cells_(grid_.size()) {
-        const auto for_each_cell = [&](const Task& work) {
-            constexpr std::size_t cells_per_task = 32;
-            run((cells_.size() + cells_per_task - 1) / cells_per_task, [&](std::size_t task) {
-                const std::size_t end = (std::min)(cells_.size(), (task + 1) * cells_per_task);
-                for (std::size_t cell = task * cells_per_task; cell < end; ++cell)
-                    work(cell);
-            });
-        };
+        const auto for_each_cell = [&](const auto& work) { detail::for_each_index(run, cells_.size(), 32, work); };
         for_each_cell([&](std::size_t cell) { choose_frame(cell, photons); });
         for_each_cell([&](std::size_t cell) { fit(cell, photons); });
         if (options_.smoothing) {
@@ -124,18 +112,10 @@ private:
         samples_ = {}; // no longer needed
     }
 
-    template <class Photons>
-    [[nodiscard]] static Samples pointers_to(const Photons& photons) {
-        Samples samples(photons.size());
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            samples[i] = &photons[i];
-        return samples;
-    }
-
-    [[nodiscard]] static std::vector<AreaSample> samples_of(const Samples& photons) {
+    [[nodiscard]] static std::vector<AreaSample> samples_of(const PathSamples& photons) {
         std::vector<AreaSample> samples(photons.size());
         for (std::size_t i = 0; i < samples.size(); ++i)
-            samples[i] = area_sample(photons[i]->sample);
+            samples[i] = area_sample(photons[i].sample);
         return samples;
     }
 
@@ -149,16 +129,16 @@ private:
     }
 
     /// The path that most of some photons took, if any of them tells of the map.
-    [[nodiscard]] static std::optional<std::uint32_t> commonest_path(const Samples& photons,
+    [[nodiscard]] static std::optional<std::uint32_t> commonest_path(const PathSamples& photons,
                                                                      std::span<const std::uint32_t> among) {
         std::size_t most = 0;
         std::uint32_t signature = 0;
         for (const std::uint32_t i : among) {
-            if (!is_telling(*photons[i]))
+            if (!is_telling(photons[i]))
                 continue;
-            const std::uint32_t candidate = photons[i]->signature;
-            const auto same = std::size_t(std::count_if(
-                among.begin(), among.end(), [&](std::uint32_t j) { return is_on(*photons[j], candidate); }));
+            const std::uint32_t candidate = photons[i].signature;
+            const auto same = std::size_t(std::count_if(among.begin(), among.end(),
+                                                        [&](std::uint32_t j) { return is_on(photons[j], candidate); }));
             if (same > most || (same == most && candidate < signature)) {
                 most = same;
                 signature = candidate;
@@ -168,7 +148,8 @@ private:
     }
 
     /// Cells along each number as its change of the tangents deserves, which coarse cells tell.
-    [[nodiscard]] static AreaCells::Place counts_of(const Samples& photons, const std::vector<AreaSample>& samples) {
+    [[nodiscard]] static AreaCells::Place counts_of(const PathSamples& photons,
+                                                    const std::vector<AreaSample>& samples) {
         const AreaCells coarse(samples, AreaCells::counts_for(photons.size(), {1, 1, 1, 1}));
         constexpr double least = 1e-3; // relative change over the domain: less is none
         AreaSample need{};
@@ -181,7 +162,7 @@ private:
             std::size_t count = 0;
             const EmissionFrame* frame = nullptr;
             for (const std::uint32_t i : coarse.photons(cell)) {
-                const PathSample& photon = *photons[i];
+                const PathSample& photon = photons[i];
                 if (!is_telling(photon) || !is_on(photon, *signature))
                     continue;
                 if (frame == nullptr)
@@ -202,7 +183,7 @@ private:
         return AreaCells::counts_for(photons.size(), need);
     }
 
-    void choose_frame(std::size_t index, const Samples& photons) {
+    void choose_frame(std::size_t index, const PathSamples& photons) {
         Cell& cell = cells_[index];
         const auto signature = commonest_path(photons, grid_.photons(index));
         if (!signature)
@@ -211,12 +192,12 @@ private:
         cell.has_frame = true;
         double nearest = std::numeric_limits<double>::infinity();
         for (const std::uint32_t i : grid_.photons(index)) {
-            if (!is_telling(*photons[i]) || !is_on(*photons[i], cell.signature))
+            if (!is_telling(photons[i]) || !is_on(photons[i], cell.signature))
                 continue;
             const double distance2 = length2_of(grid_.from_middle(index, samples_[i], false));
             if (distance2 < nearest) {
                 nearest = distance2;
-                cell.frame = photons[i]->frame;
+                cell.frame = photons[i].frame;
             }
         }
     }
@@ -226,7 +207,7 @@ private:
     }
 
     /// Fits the derivatives to the photons of this cell and those around it, weighted by a biweight about its middle.
-    void fit(std::size_t index, const Samples& photons) {
+    void fit(std::size_t index, const PathSamples& photons) {
         Cell& cell = cells_[index];
         if (!cell.has_frame)
             return;
@@ -237,14 +218,14 @@ private:
                 return;
             for (const std::uint32_t i : grid_.photons(other)) {
                 const double rest = 1 - length2_of(grid_.from_middle(index, samples_[i], true)) / square(reach);
-                if (!(rest > 0) || !is_telling(*photons[i]) || !is_on(*photons[i], cell.signature))
+                if (!(rest > 0) || !is_telling(photons[i]) || !is_on(photons[i], cell.signature))
                     continue;
                 AreaSample away = samples_[i];
                 const AreaSample middle = grid_.from_middle(index, away, false);
                 for (std::size_t axis = 0; axis < 4; ++axis)
                     away[axis] = middle[axis] / double(grid_.counts()[axis]);
-                fit.add(cell.frame.step_to(photons[i]->frame),
-                        turned(photons[i]->tangents, cell.frame.turn_of(photons[i]->frame)), away, rest * rest);
+                fit.add(cell.frame.step_to(photons[i].frame),
+                        turned(photons[i].tangents, cell.frame.turn_of(photons[i].frame)), away, rest * rest);
             }
         });
         double rough = 0;
@@ -258,12 +239,12 @@ private:
         return a == b || (cells_[a].is_resolved && cells_[b].is_resolved && cells_[a].signature == cells_[b].signature);
     }
 
-    void find_border(std::size_t index, const Samples& photons) {
+    void find_border(std::size_t index, const PathSamples& photons) {
         Cell& cell = cells_[index];
         if (!cell.is_resolved)
             return;
         cell.border =
-            border_about(grid_, index, samples_, [&](std::uint32_t i) { return is_on(*photons[i], cell.signature); });
+            border_about(grid_, index, samples_, [&](std::uint32_t i) { return is_on(photons[i], cell.signature); });
         if (cell.border && !meet(cell, *cell.border))
             cell.border.reset();
     }

@@ -54,15 +54,12 @@ struct Pilot {
 template <class S, class L, class Sequence, class E>
 [[nodiscard]] Pilot<traced_photon_t<L>> trace_pilot(const S& scene, const L& light, const PhotonPass& pass,
                                                     const SecondOrder& policy, const Sequence& sequence, E& executor) {
-    constexpr std::size_t photons_per_task = 512;
     const auto count = std::size_t((std::min)(pass.total == 0 ? pass.count : pass.total, policy.pilot));
     Pilot<traced_photon_t<L>> pilot{pass.total == 0 ? pass.first : 0, std::vector<traced_photon_t<L>>(count),
                                     std::vector<Statistics>(count)};
     announce(executor, Phase::trace);
-    executor((count + photons_per_task - 1) / photons_per_task, [&](std::size_t task) {
-        const std::size_t end = (std::min)(count, (task + 1) * photons_per_task);
-        for (std::size_t i = task * photons_per_task; i < end; ++i)
-            pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
+    for_each_index(executor, count, 512, [&](std::size_t i) {
+        pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
     });
     return pilot;
 }
