@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -16,9 +17,10 @@ namespace nephroid::examples::benchmarks {
 
 /// How long to measure. The defaults are short; a quiet machine needs no more.
 struct Effort {
-    double seconds = 0.04;    ///< of each repetition, at least
-    unsigned repetitions = 5; ///< the least time of these counts: what a neighbour takes away is never added
-    bool full = false;        ///< the large sizes too
+    double seconds = 0.04;             ///< of each repetition, at least
+    unsigned repetitions = 5;          ///< the least time of these counts: what a neighbour takes away is never added
+    bool full = false;                 ///< the large sizes too
+    std::uint64_t photons = 1'000'000; ///< of the long run
 };
 
 /// What is timed: `run` is called again and again, and does `items` pieces of work each time.
