@@ -51,6 +51,8 @@ template <class V>
 /// neighbours.
 template <class L>
 struct Undescribed : L {
+    static constexpr std::uint32_t dimensions = L::dimensions + 1;
+
     template <class S>
     [[nodiscard]] auto emit(S& samples, const Spread<scalar_t<typename L::vector>>& spread) const {
         auto photon = L::emit(samples, spread);

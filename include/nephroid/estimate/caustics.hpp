@@ -110,11 +110,12 @@ Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, P
     if constexpr (detail::is_second_order<Policies, L>) {
         detail::check(splatter.policies().order, "nephroid::splat_caustics");
         const auto pilot = detail::trace_pilot(scene, light, pass, splatter.policies().order, sequence, executor);
-        auto footprints = detail::footprints_from(pilot, pass, splatter.policies(), double(splatter.map().diagonal()),
-                                                  Sequence::stratified, executor);
-        if (!pass.smoothing)
-            footprints.smooth_others(
-                detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
+        auto footprints = detail::footprints_from<emission_domains<L>>(
+            pilot, pass, splatter.policies(), double(splatter.map().diagonal()), Sequence::stratified, executor);
+        if constexpr (emission_domains<L>.others)
+            if (!pass.smoothing)
+                footprints.smooth_others(
+                    detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
         return detail::splat_in_batches(
             splatter, pass,
             [&](std::uint64_t i, auto& chunk, Statistics& account) {

@@ -9,6 +9,7 @@
 #include "nephroid/transport/executor.hpp"
 #include "nephroid/transport/trail.hpp"
 
+#include <cassert>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -31,6 +32,7 @@ template <class S, class L, class Sequence>
     Sampler<Sequence> sampler(sequence, index);
     RecordingSource<Sampler<Sequence>> recorder(sampler);
     const auto emitted = light.emit(recorder, spread);
+    assert(may_draw(emission_domains<L>, recorder.sample().dimensions)); // else the light's own `dimensions` are wrong
     PathSignature signature;
     const auto deposit = walk(scene, emitted, sampler, pass.limits, account, signature);
     return {recorder.sample(), EmissionFrame(emitted), signature.value(), deposit};
@@ -66,21 +68,22 @@ template <class S, class L, class Sequence, class E>
 
 /// What the pilot photons say of the footprints of the whole pass.
 ///
+/// @tparam domains       what the lights may draw
 /// @param largest_reach  of a footprint, world units: the map's diagonal
-template <Vector3 V, Flux F, std::size_t N, class Policies, class E>
-[[nodiscard]] SecondOrderFootprints<V> footprints_from(const Pilot<TracedPhoton<V, F, N>>& pilot,
-                                                       const PhotonPass& pass, const Policies& policies,
-                                                       double largest_reach, bool stratified, E& executor) {
+template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class Policies, class E>
+[[nodiscard]] SecondOrderFootprints<V, domains> footprints_from(const Pilot<TracedPhoton<V, F, N>>& pilot,
+                                                                const PhotonPass& pass, const Policies& policies,
+                                                                double largest_reach, bool stratified, E& executor) {
     using Kernel = std::remove_cvref_t<decltype(policies.kernel)>;
-    const typename SecondOrderFootprints<V>::Options options{.policy = policies.order,
-                                                             .smoothing = pass.smoothing,
-                                                             .stratified = stratified,
-                                                             .second_moment = double(Kernel::second_moment),
-                                                             .photons =
-                                                                 double(pass.total == 0 ? pass.count : pass.total),
-                                                             .largest_reach = largest_reach};
+    using Footprints = SecondOrderFootprints<V, domains>;
+    const typename Footprints::Options options{.policy = policies.order,
+                                               .smoothing = pass.smoothing,
+                                               .stratified = stratified,
+                                               .second_moment = double(Kernel::second_moment),
+                                               .photons = double(pass.total == 0 ? pass.count : pass.total),
+                                               .largest_reach = largest_reach};
     announce(executor, Phase::fit);
-    return SecondOrderFootprints<V>(std::span<const TracedPhoton<V, F, N>>(pilot.photons), options, executor);
+    return Footprints(std::span<const TracedPhoton<V, F, N>>(pilot.photons), options, executor);
 }
 
 } // namespace nephroid::detail
