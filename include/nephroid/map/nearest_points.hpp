@@ -2,7 +2,7 @@
 /// @file  The nearest of many points: gathered with some to spare, and thinned out whenever there is no more room.
 #pragma once
 
-#include "nephroid/vector/scalar.hpp"
+#include "nephroid/map/smallest.hpp"
 
 #include <algorithm>
 #include <array>
@@ -90,34 +90,11 @@ public:
     }
 
 private:
-    /// Keeps those wanted and `spare` others at most. By interpolation, as the squares of distances on a surface are spread
-    /// evenly.
+    /// Keeps those wanted and `spare` others at most.
     void thin(std::size_t spare) {
-        T low(0), high = unlimited_ ? *std::max_element(distance2_, distance2_ + size_) : limit2_;
-        std::size_t below_low = 0, below_high = size_;
-        for (int tries = 0; tries < 6; ++tries) {
-            const T share = (T(wanted_ - below_low) + T(0.5) * T(spare)) / T(below_high - below_low);
-            const T guess = low + share * (high - low);
-            if (!(low < guess && guess < high))
-                break;
-            const std::size_t below = count_below(guess);
-            if (below >= wanted_ && below <= wanted_ + spare)
-                return keep(guess, 0);
-            (below < wanted_ ? below_low : below_high) = below;
-            (below < wanted_ ? low : high) = guess;
-        }
-        static thread_local std::vector<T> sorted; // where several lie equally far, mostly
-        sorted.assign(distance2_, distance2_ + size_);
-        const auto last = sorted.begin() + std::ptrdiff_t(wanted_ - 1);
-        std::nth_element(sorted.begin(), last, sorted.end());
-        keep(*last, wanted_ - count_below(*last));
-    }
-
-    [[nodiscard]] std::size_t count_below(T limit2) const {
-        std::uint32_t count = 0;
-        for (std::size_t i = 0; i < size_; ++i)
-            count += std::uint32_t(distance2_[i] < limit2);
-        return count;
+        const T high = unlimited_ ? *std::max_element(distance2_, distance2_ + size_) : limit2_;
+        const auto [limit2, at_limit] = limit_of_smallest<T>({distance2_, size_}, wanted_, spare, high);
+        keep(limit2, at_limit);
     }
 
     /// Keeps the points below a limit, and as many more of those at it.

@@ -178,11 +178,11 @@ public:
 
 private:
     [[nodiscard]] static T distance2_to(const TreeNode<T>& node, const std::array<T, 3>& p) {
-        T distance2(0);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            distance2 =
-                distance2 + square((std::max)({T(0), node.box.low[axis] - p[axis], p[axis] - node.box.high[axis]}));
-        return distance2;
+        const auto larger = [](const T& a, const T& b) { return a > b ? a : b; };
+        const auto beside = [&](std::size_t axis) {
+            return larger(larger(node.box.low[axis] - p[axis], p[axis] - node.box.high[axis]), T(0));
+        };
+        return square(beside(0)) + square(beside(1)) + square(beside(2));
     }
 
     template <class Accept>
