@@ -2,25 +2,23 @@
 /// @file  The first photons of a pass, traced and kept until their neighbours have told how large they should be.
 #pragma once
 
-#include "nephroid/emission/light.hpp"
 #include "nephroid/emission/sequence/sequence.hpp"
+#include "nephroid/estimate/coherent_order.hpp"
 #include "nephroid/estimate/photon_pass.hpp"
 #include "nephroid/estimate/second_order/second_order.hpp"
 #include "nephroid/transport/executor.hpp"
 #include "nephroid/transport/trail.hpp"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <span>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace nephroid::detail {
 
 template <class L>
-using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type,
-                                     std::remove_cvref_t<decltype(std::declval<const L&>().emit(
-                                         std::declval<AnySampleSource&>(),
-                                         std::declval<const Spread<scalar_t<typename L::vector>>&>()))>::tangent_count>;
+using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type, tangent_count_of<L>>;
 
 /// The photon with an index (of the whole picture, not of the pass), emitted with smoothing 1.
 template <class S, class L, class Sequence>
@@ -59,9 +57,11 @@ template <class S, class L, class Sequence, class E>
     Pilot<traced_photon_t<L>> pilot{pass.total == 0 ? pass.first : 0, std::vector<traced_photon_t<L>>(count),
                                     std::vector<Statistics>(count)};
     announce(executor, Phase::trace);
+    CoherentOrder order;
+    const std::span<const std::uint32_t> numbers = order.sort(light, sequence, pilot.first, count, executor);
     executor((count + photons_per_task - 1) / photons_per_task, [&](std::size_t task) {
-        const std::size_t end = (std::min)(count, (task + 1) * photons_per_task);
-        for (std::size_t i = task * photons_per_task; i < end; ++i)
+        const std::size_t from = task * photons_per_task;
+        for (const std::uint32_t i : numbers.subspan(from, (std::min)(photons_per_task, count - from)))
             pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
     });
     return pilot;
