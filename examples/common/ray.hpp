@@ -63,9 +63,12 @@ struct Box {
         }
     }
 
+    /// An empty one adds nothing.
     void add(const Box& box) {
-        add(box.min);
-        add(box.max);
+        for (int axis = 0; axis < 3; ++axis) {
+            min[axis] = box.min[axis] < min[axis] ? box.min[axis] : min[axis];
+            max[axis] = box.max[axis] > max[axis] ? box.max[axis] : max[axis];
+        }
     }
 
     /// The box and a few units in the last place around it: no corner computed in T is lost to rounding.
