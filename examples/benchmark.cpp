@@ -26,8 +26,9 @@ namespace bench = nephroid::examples::benchmarks;
 using Rows = void (*)(const bench::Effort&);
 
 /// In the order that they are run in.
-constexpr std::array<std::pair<const char*, Rows>, 12> rows = {{{"splat", bench::benchmark_splatting},
+constexpr std::array<std::pair<const char*, Rows>, 13> rows = {{{"splat", bench::benchmark_splatting},
                                                                 {"build", bench::benchmark_build},
+                                                                {"order", bench::benchmark_order},
                                                                 {"tangents", bench::benchmark_tangents},
                                                                 {"matrix", bench::benchmark_matrices},
                                                                 {"knn", bench::benchmark_nearest},

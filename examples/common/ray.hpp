@@ -7,6 +7,7 @@
 #include "nephroid/vector/glm.hpp"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include <cstdint>
 #include <limits>
@@ -25,6 +26,16 @@ using wide_t = std::conditional_t<std::is_same_v<T, float>, double, T>;
 template <class T>
 [[nodiscard]] Vec3<wide_t<T>> widen(const Vec3<T>& v) {
     return Vec3<wide_t<T>>(v);
+}
+
+/// a × b of vectors in `wide` that were made from T: double holds the products of float's differences almost exactly, and
+/// only those of double's own can cancel.
+template <class T>
+[[nodiscard]] Vec3<wide_t<T>> wide_cross(const Vec3<wide_t<T>>& a, const Vec3<wide_t<T>>& b) {
+    if constexpr (std::is_same_v<T, float>)
+        return glm::cross(a, b);
+    else
+        return cross(a, b);
 }
 
 /// Hits count between t_min and t_max, in units of the direction's length.
@@ -52,9 +63,12 @@ struct Box {
         }
     }
 
+    /// An empty one adds nothing.
     void add(const Box& box) {
-        add(box.min);
-        add(box.max);
+        for (int axis = 0; axis < 3; ++axis) {
+            min[axis] = box.min[axis] < min[axis] ? box.min[axis] : min[axis];
+            max[axis] = box.max[axis] > max[axis] ? box.max[axis] : max[axis];
+        }
     }
 
     /// The box and a few units in the last place around it: no corner computed in T is lost to rounding.

@@ -112,6 +112,35 @@ TEST_CASE_TEMPLATE("bvh: bounds that are empty or not finite are refused", T, fl
         CHECK_THROWS_AS(Bvh<T>(std::vector<Box<T>>{good, bad}), std::invalid_argument);
 }
 
+TEST_CASE_TEMPLATE("bvh: an empty box adds nothing to another", T, float, double) {
+    Box<T> box{{1, 2, 3}, {4, 5, 6}};
+    box.add(Box<T>{});
+    CHECK(box.min == Vec3<T>(1, 2, 3));
+    CHECK(box.max == Vec3<T>(4, 5, 6));
+    Box<T> none;
+    none.add(Box<T>{});
+    CHECK(none.is_empty());
+}
+
+// Few primitives leave most bins empty. A grid's best split is always between two columns or rows: a ray through a cell
+// meets its leaf, and no other.
+TEST_CASE_TEMPLATE("bvh: over the cells of a grid leaves do not overlap", T, float, double) {
+    std::vector<Box<T>> cells;
+    for (int i = 0; i < 60 * 60; ++i) {
+        const Vec3<T> corner(T(i % 60), T(i / 60), 0);
+        cells.push_back({corner, corner + T(1)});
+    }
+    const Bvh<T> bvh(cells);
+    for (std::size_t i = 0; i < cells.size(); i += 7) {
+        int visits = 0;
+        bvh.traverse({cells[i].min + Vec3<T>(T(0.5), T(0.5), -1), {0, 0, 1}}, [&](std::uint32_t, T t_max) {
+            ++visits;
+            return t_max;
+        });
+        REQUIRE(visits == 1);
+    }
+}
+
 // Rays through corners and along faces are where rounding decides; the oracle has 11 bits more than double.
 TEST_CASE_TEMPLATE("bvh: no box that a ray meets is missed", T, float, double) {
     Numbers numbers(2);

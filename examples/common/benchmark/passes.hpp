@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Photons from the lamp to the map: what tangents cost, whole passes, whole frames, two threads, growth.
+/// @file  Photons from the lamp to the map: what order and tangents cost, whole passes, whole frames, two threads, growth.
 #pragma once
 
 #include "common/benchmark/measure.hpp"
@@ -12,9 +12,12 @@
 
 #include "nephroid/estimate/caustics.hpp"
 #include "nephroid/estimate/trace_photons.hpp"
+#include "nephroid/estimate/traced_batch.hpp"
 #include "nephroid/relaxation/relax.hpp"
 
 #include <limits>
+#include <optional>
+#include <string>
 
 namespace nephroid::examples::benchmarks {
 
@@ -38,6 +41,51 @@ template <class S, class L>
             benchmark::DoNotOptimize(deposit);
         }
     };
+}
+
+/// Traces 65,536 photons as a batch does, neighbours at the lamp one after the other, and in the order of their indices.
+template <class Sequence, class S>
+void benchmark_order_in(const Effort& effort, const std::string& name, const S& scene) {
+    constexpr std::uint64_t photons = 1 << 16;
+    const Sequence sequence;
+    const auto light = sun();
+    const auto trace_one = [&](std::uint64_t i, Statistics& account) {
+        Sampler<Sequence> sampler(sequence, i);
+        const auto photon = light.emit(sampler, Spread<float>{float(photons), 8});
+        return walk(scene, photon, sampler, WalkLimits{}, account);
+    };
+    SerialExecutor executor;
+    nephroid::detail::TracedBatch<std::optional<Deposit<Vec, float>>> batch;
+    const auto coherent = [&] { (void)batch.trace(light, sequence, 0, 0, photons, trace_one, executor); };
+    const auto by_index = [&] {
+        Statistics account;
+        for (std::uint64_t i = 0; i < photons; ++i) {
+            auto deposit = trace_one(i, account);
+            benchmark::DoNotOptimize(deposit);
+        }
+    };
+    CoherentOrder order;
+    const auto sort = [&] { benchmark::DoNotOptimize(order.sort(light, sequence, 0, photons, executor).data()); };
+    const double items = double(photons);
+    const auto t = seconds_per_item(effort, {{items, coherent}, {items, by_index}, {items, sort}});
+    print_row("coherent order, " + name, 1e9 * t[0], "ns", "speed in order of index", t[1] / t[0]);
+    print_row("  of which sorting", 1e9 * t[2], "ns", "the whole", t[2] / t[0]);
+}
+
+inline void benchmark_order(const Effort& effort) {
+    for (const std::size_t side : {std::size_t(100), std::size_t(400), std::size_t(800)}) {
+        if (side > 400 && !effort.full)
+            continue;
+        const auto water = water_scene(wavy_sheet(side));
+        const std::string triangles = std::to_string(2 * side * side) + " triangles, ";
+        benchmark_order_in<HaltonSequence>(effort, triangles + "Halton", water);
+        benchmark_order_in<RandomSequence>(effort, triangles + "random", water);
+#if defined(NEPHROID_EXAMPLES_HAS_EMBREE)
+        const EmbreeWater embree(water);
+        benchmark_order_in<HaltonSequence>(effort, triangles + "Embree, Halton", embree);
+        benchmark_order_in<RandomSequence>(effort, triangles + "Embree, random", embree);
+#endif
+    }
 }
 
 template <class S, class L>

@@ -74,7 +74,7 @@ public:
         const auto [p0, p1, p2] = corners(candidate.primitive);
         const WideVec3 e1 = widen(p1) - widen(p0), e2 = widen(p2) - widen(p0);
         const wide u = candidate.u, v = candidate.v;
-        const WideVec3 face = cross(e1, e2);
+        const WideVec3 face = wide_cross<T>(e1, e2);
         const wide scale = magnitude(p0) + magnitude(e1) + magnitude(e2);
         Hit<T> hit = make_hit<T>(candidate.distance, widen(p0) + (u * e1 + v * e2), normalize(face), Flat{}, scale);
         hit.surface = material(candidate.primitive);
@@ -230,10 +230,8 @@ private:
             return;
         const wide sign = side < 0 ? -1 : 1; // the shading normal is on the geometric one's side
         hit.shading_normal = Vec3<T>(sign * normalize(n));
-        const auto k = interpolated_normals<WideVec3>(widen(p[0]), widen(p[1]), widen(p[2]), sign * n0, sign * n1,
-                                                      sign * n2, candidate.u, candidate.v);
-        hit.curvature = InterpolatedCurvature<Vec3<T>>{Vec3<T>(k.gradient_1), Vec3<T>(k.gradient_2),
-                                                       Vec3<T>(k.d_normal_1), Vec3<T>(k.d_normal_2)};
+        hit.curvature = interpolated_normals<Vec3<T>>(p[0], p[1], p[2], Vec3<T>(sign * n0), Vec3<T>(sign * n1),
+                                                      Vec3<T>(sign * n2), T(candidate.u), T(candidate.v));
     }
 
     MeshData<T> data_;

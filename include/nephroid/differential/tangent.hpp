@@ -36,9 +36,8 @@ template <Scalar T>
 /// largest number that a flight and a surface do not take it there, nor the fourth power that an ellipse's radii go by
 /// (in `wider_t`).
 template <Scalar T>
-inline constexpr T longest_tangent =
-    detail::power_of_two<T>((std::min)(std::numeric_limits<T>::max_exponent / 2,
-                                       std::numeric_limits<wider_t<T>>::max_exponent / 4) - 12);
+inline constexpr T longest_tangent = detail::power_of_two<T>(
+    (std::min)(std::numeric_limits<T>::max_exponent / 2, std::numeric_limits<wider_t<T>>::max_exponent / 4) - 12);
 
 /// The tangent, scaled down where it has outgrown that: between curved mirrors tangents grow exponentially, and what
 /// overflows ends as NaN. Such a footprint is still far too long, and the excess policy sees it (footprint/policies.hpp).
@@ -46,6 +45,9 @@ template <Vector3 V>
 [[nodiscard]] Tangent<V> within_range(const Tangent<V>& tangent) {
     using T = scalar_t<V>;
     using t = vector_traits<V>;
+    const auto sum = [](const V& v) -> T { return abs(T(t::x(v))) + abs(T(t::y(v))) + abs(T(t::z(v))); };
+    if (!(sum(tangent.d_position) + sum(tangent.d_direction) > longest_tangent<T>)) // one branch, nearly always taken
+        return tangent;
     const auto largest = [](const V& v) { return (std::max)({T(abs(t::x(v))), T(abs(t::y(v))), T(abs(t::z(v)))}); };
     const T reach = (std::max)(largest(tangent.d_position), largest(tangent.d_direction));
     if (!(reach > longest_tangent<T>))

@@ -4,6 +4,8 @@
 
 #include "nephroid/emission/light.hpp"
 
+#include <cstddef>
+#include <type_traits>
 #include <utility>
 
 namespace nephroid {
@@ -50,6 +52,11 @@ template <class L>
 concept PhotonSource = Light<L> || detail::EmitsWithoutTangents<L>;
 
 namespace detail {
+/// How many tangents its photons have.
+template <class L>
+inline constexpr std::size_t tangent_count_of = std::remove_cvref_t<decltype(std::declval<const L&>().emit(
+    std::declval<AnySampleSource&>(), std::declval<const Spread<scalar_t<typename L::vector>>&>()))>::tangent_count;
+
 /// A source of photons for these sums, or an error that says why not.
 template <class L, class V, class F>
 concept MustEmit = (PhotonSource<L> || explain_light<L>()) && (EmitsFor<L, V, F> || explain_emission<L, V, F>());

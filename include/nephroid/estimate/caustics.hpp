@@ -10,23 +10,31 @@
 #include "nephroid/estimate/photon_splatter.hpp"
 #include "nephroid/estimate/second_order/curved_footprints.hpp"
 #include "nephroid/estimate/second_order/pilot.hpp"
+#include "nephroid/estimate/traced_batch.hpp"
 
 namespace nephroid {
 
 namespace detail {
-/// A batch is traced in parallel, in chunks, and binned together. How many photons it has follows from how many leaves
-/// the splats of the batch before met, so that memory does not grow with the footprints either; it grows by no more
-/// than a factor at a time.
+/// A batch is traced in parallel, made ready in chunks, and binned together. How many photons it has follows from how
+/// many leaves the splats of the batch before met, so that memory does not grow with the footprints either; it grows by
+/// no more than a factor at a time. The more it has, the closer together are those that are traced one after the other.
 inline constexpr std::size_t chunks_per_batch = 64;
-inline constexpr std::size_t least_photons = 4 * chunks_per_batch, most_photons = 128 * chunks_per_batch;
-inline constexpr std::size_t visits_per_batch = std::size_t(1) << 19, growth = 4;
+inline constexpr std::size_t least_photons = 4 * chunks_per_batch, most_photons = 1024 * chunks_per_batch;
+inline constexpr std::size_t visits_per_batch = std::size_t(1) << 19, growth = 8;
+
+/// For photons that were traced before.
+struct NothingToTrace {
+    Statistics operator()(std::uint64_t, std::uint64_t) const { return {}; }
+};
 
 /// Splats photons 0 to count − 1 of a pass.
 ///
 /// @param add_photon  add_photon(i, chunk, account) adds photon i with its final footprint to the chunk; what became of
 ///                    it otherwise is in the account. Called from several threads
-template <class Splatter, class AddPhoton, class E>
-Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const AddPhoton& add_photon, E& executor) {
+/// @param trace       trace(begin, end) -> Statistics: called before photons begin to end − 1 are added
+template <class Splatter, class AddPhoton, class E, class Trace = NothingToTrace>
+Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const AddPhoton& add_photon, E& executor,
+                            const Trace& trace = {}) {
     using Chunk = typename Splatter::Chunk;
     std::vector<Chunk> chunks(chunks_per_batch);
     std::vector<Statistics> accounts(chunks_per_batch);
@@ -36,6 +44,7 @@ Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const Ad
         const std::uint64_t batch_end = done + (std::min)(batch, pass.count - done);
         const std::uint64_t per_chunk = (batch_end - done + chunks_per_batch - 1) / chunks_per_batch;
         announce(executor, Phase::trace);
+        account += trace(done, batch_end);
         executor(chunks_per_batch, [&](std::size_t c) {
             chunks[c].clear();
             Statistics chunk_account;
@@ -116,27 +125,44 @@ Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, P
             if (!pass.smoothing)
                 footprints.smooth_others(
                     detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
+        detail::TracedBatch<detail::traced_photon_t<L>> batch;
         return detail::splat_in_batches(
             splatter, pass,
             [&](std::uint64_t i, auto& chunk, Statistics& account) {
-                auto photon = pilot.has(pass.first + i)
-                                  ? pilot.take(pass.first + i, account)
-                                  : detail::trace_photon(scene, light, pass, sequence, pass.first + i, account);
-                if (photon.deposit)
-                    detail::add_placed(footprints, photon, splatter, chunk, account);
+                if (batch[i].deposit)
+                    detail::add_placed(footprints, batch[i], splatter, chunk, account);
             },
-            executor);
+            executor,
+            [&](std::uint64_t begin, std::uint64_t end) {
+                return batch.trace(
+                    light, sequence, pass.first, begin, end,
+                    [&](std::uint64_t i, Statistics& account) {
+                        return pilot.has(pass.first + i)
+                                   ? pilot.take(pass.first + i, account)
+                                   : detail::trace_photon(scene, light, pass, sequence, pass.first + i, account);
+                    },
+                    executor);
+            });
     } else {
         const Spread<T> spread = detail::spread_of<T>(pass);
+        detail::TracedBatch<std::optional<Deposit<V, F, detail::tangent_count_of<L>>>> batch;
         return detail::splat_in_batches(
             splatter, pass,
             [&](std::uint64_t i, auto& chunk, Statistics& account) {
-                Sampler<Sequence> sampler(sequence, pass.first + i);
-                const auto photon = light.emit(sampler, spread);
-                if (const auto deposit = walk(scene, photon, sampler, pass.limits, account))
+                if (const auto& deposit = batch[i])
                     chunk.add(splatter, *deposit, account);
             },
-            executor);
+            executor,
+            [&](std::uint64_t begin, std::uint64_t end) {
+                return batch.trace(
+                    light, sequence, pass.first, begin, end,
+                    [&](std::uint64_t i, Statistics& account) {
+                        Sampler<Sequence> sampler(sequence, pass.first + i);
+                        const auto photon = light.emit(sampler, spread);
+                        return walk(scene, photon, sampler, pass.limits, account);
+                    },
+                    executor);
+            });
     }
 }
 

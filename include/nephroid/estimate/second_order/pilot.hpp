@@ -2,26 +2,24 @@
 /// @file  The first photons of a pass, traced and kept until their neighbours have told how large they should be.
 #pragma once
 
-#include "nephroid/emission/light.hpp"
 #include "nephroid/emission/sequence/sequence.hpp"
+#include "nephroid/estimate/coherent_order.hpp"
 #include "nephroid/estimate/photon_pass.hpp"
 #include "nephroid/estimate/second_order/second_order.hpp"
 #include "nephroid/transport/executor.hpp"
 #include "nephroid/transport/trail.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cstddef>
+#include <cstdint>
 #include <span>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 namespace nephroid::detail {
 
 template <class L>
-using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type,
-                                     std::remove_cvref_t<decltype(std::declval<const L&>().emit(
-                                         std::declval<AnySampleSource&>(),
-                                         std::declval<const Spread<scalar_t<typename L::vector>>&>()))>::tangent_count>;
+using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type, tangent_count_of<L>>;
 
 /// The photon with an index (of the whole picture, not of the pass), emitted with smoothing 1.
 template <class S, class L, class Sequence>
@@ -60,7 +58,10 @@ template <class S, class L, class Sequence, class E>
     Pilot<traced_photon_t<L>> pilot{pass.total == 0 ? pass.first : 0, std::vector<traced_photon_t<L>>(count),
                                     std::vector<Statistics>(count)};
     announce(executor, Phase::trace);
-    for_each_index(executor, count, 512, [&](std::size_t i) {
+    CoherentOrder order;
+    const std::span<const std::uint32_t> numbers = order.sort(light, sequence, pilot.first, count, executor);
+    for_each_index(executor, count, 512, [&](std::size_t place) {
+        const std::uint32_t i = numbers[place];
         pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
     });
     return pilot;

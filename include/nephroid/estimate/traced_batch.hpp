@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// @file  A batch of photons, traced by several threads in a coherent order and kept in the order of their indices.
+#pragma once
+
+#include "nephroid/estimate/coherent_order.hpp"
+#include "nephroid/transport/account.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// Photons of a batch, each in the place of its index, whatever order they were traced in.
+///
+/// @tparam Record  what is kept of a photon; default-constructible
+template <class Record>
+class TracedBatch {
+public:
+    /// Traces photons `begin` to end − 1 of a pass.
+    ///
+    /// @param first  index of the pass's first photon
+    /// @param trace_one  trace_one(i, account) -> Record: of photon first + i. Called from several threads
+    /// @return  what the accounts add up to; for any executor the same, bit for bit
+    template <PhotonSource L, SampleSequence Sequence, class Trace, ExecutorArgument E>
+    Statistics trace(const L& light, const Sequence& sequence, std::uint64_t first, std::uint64_t begin,
+                     std::uint64_t end, const Trace& trace_one, E& executor) {
+        const auto count = std::size_t(end - begin), per_task = (std::max)(least_per_task, (count + 63) / 64);
+        const std::span<const std::uint32_t> order = order_.sort(light, sequence, first + begin, count, executor);
+        begin_ = begin;
+        records_.resize(count);
+        accounts_.resize((count + per_task - 1) / per_task);
+        executor(accounts_.size(), [&](std::size_t task) {
+            Statistics account; // the thread's own, not beside another's in memory
+            const std::size_t from = task * per_task;
+            for (const std::uint32_t number : order.subspan(from, (std::min)(per_task, count - from))) {
+                expect(records_[number]);
+                records_[number] = trace_one(begin + number, account);
+            }
+            accounts_[task] = account;
+        });
+        Statistics sum;
+        for (const Statistics& account : accounts_)
+            sum += account;
+        return sum;
+    }
+
+    /// Photon i of the pass, of the batch traced last.
+    [[nodiscard]] Record& operator[](std::uint64_t i) { return records_[std::size_t(i - begin_)]; }
+
+private:
+    static constexpr std::size_t least_per_task = 16;
+
+    /// Asks for a record's cache lines while its photon is on its way: they lie far from the last one's.
+    static void expect(const Record& record) {
+#if defined(__GNUC__)
+        for (std::size_t offset = 0; offset < sizeof(Record); offset += 64)
+            __builtin_prefetch(reinterpret_cast<const char*>(&record) + offset, 1);
+#else
+        (void)record;
+#endif
+    }
+
+    CoherentOrder order_;
+    std::uint64_t begin_ = 0;
+    std::vector<Record> records_;
+    std::vector<Statistics> accounts_;
+};
+
+} // namespace nephroid::detail
