@@ -58,11 +58,13 @@ template <class S, class L, class Sequence, class E>
                                     std::vector<Statistics>(count)};
     announce(executor, Phase::trace);
     CoherentOrder order;
-    const std::span<const std::uint32_t> numbers = order.sort(light, sequence, pilot.first, count, executor);
+    const std::span<const PlacedPhoton> sorted = order.sort(light, sequence, pilot.first, count, executor);
     executor((count + photons_per_task - 1) / photons_per_task, [&](std::size_t task) {
         const std::size_t from = task * photons_per_task;
-        for (const std::uint32_t i : numbers.subspan(from, (std::min)(photons_per_task, count - from)))
+        for (const PlacedPhoton& photon : sorted.subspan(from, (std::min)(photons_per_task, count - from))) {
+            const std::size_t i = photon.number;
             pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
+        }
     });
     return pilot;
 }
