@@ -55,6 +55,8 @@ int main(int argc, char** argv) {
         app.add_option("rows", chosen_rows, "Which of: " + names + "[all]");
         app.add_option("--seconds", effort.seconds, "Of each repetition, at least [0.04]");
         app.add_option("--repetitions", effort.repetitions, "Of which the least time counts [5]");
+        app.add_flag("--instructions", effort.instructions,
+                     "Counts them, under valgrind --tool=callgrind; each is printed as a nanosecond");
         app.add_flag("--full", effort.full, "The large sizes as well: 1.3 million triangles, 4096 x 4096");
         app.add_option("--photons", photons, "Of the row long [1e6]");
         if (!parse(app, argc, argv))
@@ -63,6 +65,9 @@ int main(int argc, char** argv) {
         if (!(effort.seconds > 0 && effort.seconds <= 60) || effort.repetitions < 1 || effort.repetitions > 1000)
             throw UsageError("--seconds, --repetitions: above 0 to 60 seconds, 1 to 1000 repetitions");
 
+        if (effort.instructions && !bench::counts_instructions())
+            throw UsageError("--instructions: only under valgrind --tool=callgrind, and if built with its header "
+                             "(Debian: valgrind)");
         std::vector<Rows> to_run;
         for (const std::string& name : chosen_rows) {
             const auto* const found =

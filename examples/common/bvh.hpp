@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A bounding volume hierarchy with four children a node, over anything that has bounds.
+/// @file  A bounding volume hierarchy with eight children a node, over anything that has bounds.
 #pragma once
 
 #include "common/ray.hpp"
@@ -8,10 +8,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nephroid::examples {
@@ -25,15 +27,40 @@ void prefetch(const Object* object) {
 #endif
 }
 
+/// Some numbers at once, by GCC's and Clang's own extension: as many as one register of any machine holds.
+template <class T>
+struct RegisterOf {
+    typedef T type __attribute__((vector_size(16)));
+    static constexpr std::size_t lanes = 16 / sizeof(T);
+};
+
+/// Of a register's comparisons those that are true, as bits: that of lane i has the number first + i.
+template <class Results>
+[[nodiscard]] Results bits_from(std::size_t first, const Results& results) {
+    Results bits;
+    for (int i = 0; i < int(sizeof(Results) / sizeof(results[0])); ++i)
+        bits[i] = 1 << (int(first) + i);
+    return results & bits;
+}
+
+/// The bits of all lanes together.
+template <class Bits>
+[[nodiscard]] unsigned all_bits(const Bits& bits) {
+    using Halves = typename RegisterOf<long long>::type;
+    const Halves halves = reinterpret_cast<Halves>(bits);
+    const auto both = static_cast<unsigned long long>(halves[0] | halves[1]);
+    return static_cast<unsigned>(both | both >> 32);
+}
+
 /// The hierarchy knows the primitives' bounds alone. Its leaves are numbered from 0 without gaps; what lies in leaf l is
 /// `leaf(l)`, and whoever owns the primitives may lay them out in that order.
 ///
-/// Built top down: the largest child is split until a node has four, by the surface area heuristic over 16 bins.
+/// Built top down: the largest child is split until a node has eight, by the surface area heuristic over 16 bins.
 /// No box that a ray meets in exact arithmetic is missed.
 template <class T>
 class Bvh {
 public:
-    static constexpr std::size_t width = 4;
+    static constexpr std::size_t width = 8;
 
     Bvh() = default;
 
@@ -88,20 +115,24 @@ public:
                     return;
             } else {
                 const Node& node = nodes_[child];
-                const auto t = slabs.enter(node.planes, ray.t_min, t_max);
-                // The children that are hit go on the stack, the nearest one last.
-                const std::size_t first = pending;
-                for (std::size_t i = 0; i < width; ++i) {
-                    if (!(t[i] < std::numeric_limits<T>::infinity()))
-                        continue;
-                    std::size_t place = pending++;
-                    for (; place > first && stack[place - 1].t < t[i]; --place)
-                        stack[place] = stack[place - 1];
-                    stack[place] = {node.children[i], t[i]};
-                    if (node.children[i] & leaf_flag)
-                        expect(node.children[i] & ~leaf_flag);
-                    else
-                        prefetch(&nodes_[node.children[i]]);
+                std::array<T, width> t;
+                unsigned hit = slabs.enter(node.planes, ray.t_min, t_max, t);
+                if (hit != 0) {
+                    // On to the nearest one; the others wait, the next nearest on top.
+                    auto nearest = std::size_t(std::countr_zero(hit));
+                    const std::size_t first = pending;
+                    while ((hit &= hit - 1) != 0) {
+                        auto other = std::size_t(std::countr_zero(hit));
+                        if (t[other] < t[nearest])
+                            std::swap(other, nearest);
+                        std::size_t place = pending++;
+                        for (; place > first && stack[place - 1].t < t[other]; --place)
+                            stack[place] = stack[place - 1];
+                        stack[place] = {node.children[other], t[other]};
+                        announce(node.children[other], expect);
+                    }
+                    child = node.children[nearest];
+                    continue;
                 }
             }
             do {
@@ -124,10 +155,12 @@ private:
         std::uint32_t index;
     };
 
+    using Lanes = typename RegisterOf<T>::type;
+
     /// Planes by axis, the lower ones first: x_min, x_max, y_min, ...; an absent child has an empty box.
     using Planes = std::array<std::array<T, width>, 6>;
 
-    struct alignas(16) Node {
+    struct alignas(64) Node {
         Planes planes;
         std::array<std::uint32_t, width> children; ///< a node's index, or a leaf's number with `leaf_flag`
     };
@@ -137,46 +170,56 @@ private:
     static constexpr int max_heuristic_depth = 40; ///< from there on the halves are equal: 16 levels for 2^32
     static constexpr std::size_t max_pending = (width - 1) * (max_heuristic_depth + 16) + width;
 
+    /// What is on the stack is fetched while nearer things are looked at.
+    template <class Expect>
+    void announce(std::uint32_t child, Expect& expect) const {
+        if (child & leaf_flag)
+            expect(child & ~leaf_flag);
+        else
+            prefetch(&nodes_[child]);
+    }
+
     /// A ray as the slab test wants it.
     class Slabs {
     public:
-        explicit Slabs(const Ray<T>& ray) : origin_(ray.origin) {
-            for (int axis = 0; axis < 3; ++axis) {
-                inverse_[axis] = T(1) / ray.direction[axis];
-                near_[static_cast<std::size_t>(axis)] =
-                    static_cast<std::size_t>(2 * axis + (inverse_[axis] < T(0) ? 1 : 0));
+        explicit Slabs(const Ray<T>& ray) {
+            // By more than the rounding of (plane − origin) · (1 / direction), so that no box is missed.
+            // Source: Ize 2013, "Robust BVH Ray Traversal".
+            constexpr T stretch = T(1) + T(4) * std::numeric_limits<T>::epsilon();
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const T inverse = T(1) / ray.direction[int(axis)];
+                origin_[axis] = Lanes{} + ray.origin[int(axis)];
+                inverse_[axis] = Lanes{} + inverse;
+                stretched_[axis] = Lanes{} + inverse * stretch;
+                near_[axis] = 2 * axis + (inverse < T(0) ? 1 : 0);
             }
         }
 
-        /// Where the ray enters each of four boxes; infinity where it misses.
-        /// The far distances are stretched by more than the rounding of (plane − origin) · (1 / direction), so that
-        /// no box is missed; 0 · infinity (in a plane, and parallel to it) fails each comparison and bounds nothing.
-        /// Source: Ize 2013, "Robust BVH Ray Traversal".
-        [[nodiscard]] std::array<T, width> enter(const Planes& planes, T t_min, T t_max) const {
-            typedef T Lanes __attribute__((vector_size(16))); // GCC's and Clang's own: one register of any machine
-            constexpr std::size_t lanes = sizeof(Lanes) / sizeof(T);
-            constexpr T stretch = T(1) + T(4) * std::numeric_limits<T>::epsilon();
-            std::array<T, width> t;
-            for (std::size_t first = 0; first < width; first += lanes) {
+        /// Where the ray enters each of a node's boxes.
+        ///
+        /// @return  the boxes that it meets, as bits. 0 · infinity (in a plane, and parallel to it) fails each comparison
+        ///          and bounds nothing.
+        [[nodiscard]] unsigned enter(const Planes& planes, T t_min, T t_max, std::array<T, width>& t) const {
+            decltype(Lanes{} < Lanes{}) hit{};
+            for (std::size_t first = 0; first < width; first += RegisterOf<T>::lanes) {
                 Lanes from = Lanes{} + t_min, to = Lanes{} + t_max;
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     Lanes low, high;
                     std::memcpy(&low, &planes[near_[axis]][first], sizeof low);
                     std::memcpy(&high, &planes[near_[axis] ^ 1][first], sizeof high);
-                    const Lanes a = (low - origin_[int(axis)]) * inverse_[int(axis)];
-                    const Lanes b = (high - origin_[int(axis)]) * inverse_[int(axis)] * stretch;
+                    const Lanes a = (low - origin_[axis]) * inverse_[axis];
+                    const Lanes b = (high - origin_[axis]) * stretched_[axis];
                     from = a > from ? a : from;
                     to = b < to ? b : to;
                 }
-                const Lanes result = from <= to ? from : Lanes{} + std::numeric_limits<T>::infinity();
-                std::memcpy(&t[first], &result, sizeof result);
+                std::memcpy(&t[first], &from, sizeof from);
+                hit |= bits_from(first, from <= to);
             }
-            return t;
+            return all_bits(hit);
         }
 
     private:
-        Vec3<T> origin_;
-        Vec3<T> inverse_;
+        std::array<Lanes, 3> origin_, inverse_, stretched_;
         std::array<std::size_t, 3> near_;
     };
 

@@ -114,8 +114,8 @@ public:
         };
         for (const std::size_t i : unbounded_)
             try_part(i);
-        bvh_.traverse({origin, direction, t_min, T(nearest)}, [&](std::uint32_t leaf, T) {
-            try_part(bounded_[bvh_.leaf(leaf).front()]);
+        visit_bounded({origin, direction, t_min, T(nearest)}, [&](std::size_t i, T) {
+            try_part(i);
             return T(nearest);
         });
         if (!best)
@@ -148,8 +148,8 @@ public:
         if (std::any_of(unbounded_.begin(), unbounded_.end(), blocks))
             return true;
         bool found = false;
-        bvh_.traverse(ray, [&](std::uint32_t leaf, T nearest) {
-            found = blocks(bounded_[bvh_.leaf(leaf).front()]);
+        visit_bounded(ray, [&](std::size_t i, T nearest) {
+            found = blocks(i);
             return found ? -std::numeric_limits<T>::infinity() : nearest;
         });
         return found;
@@ -219,6 +219,17 @@ public:
     }
 
 private:
+    /// Visits bounded parts as `Bvh::traverse` does leaves. A single one, a mesh perhaps with a tree of its own, needs no
+    /// tree about it.
+    template <class Visit>
+    void visit_bounded(const Ray<T>& ray, const Visit& visit) const {
+        if (bounded_.size() == 1)
+            visit(bounded_.front(), ray.t_max);
+        else
+            bvh_.traverse(ray,
+                          [&](std::uint32_t leaf, T t_max) { return visit(bounded_[bvh_.leaf(leaf).front()], t_max); });
+    }
+
     /// Between the ray and the shading normal; where that one faces away, the geometric one.
     [[nodiscard]] static T cosine(const Hit<T>& hit, const Vec3<T>& direction) {
         const T geometric = dot(direction, hit.geometric_normal), shading = dot(direction, hit.shading_normal);

@@ -188,7 +188,7 @@ struct CausticsLayer {
             pool.run_and_wait(std::move(jobs));
         };
         const std::uint64_t first = done;
-        const auto progress = [&](std::uint64_t in_this_pass) { // between batches of some thousand photons
+        const auto progress = [&](std::uint64_t in_this_pass) { // between batches of up to 65,536 photons
             done = first + in_this_pass;
             const float missing = float(photons) / float(done); // a photon's flux is its share of all of them
             const std::lock_guard lock(mutex);

@@ -179,6 +179,23 @@ TEST_CASE("mesh: seen from a thousand times its size a sheet of small triangles 
     CHECK(missed == 0);
 }
 
+// A power of two changes no digit, of the direction nor of what is made of it: the distance alone, by as much.
+TEST_CASE_TEMPLATE("mesh: the direction of a ray may have any length", T, float, double) {
+    const TriangleMesh<T> mesh(globe<T>(30, 0.1, Vec3<T>(0)));
+    Numbers numbers(12);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3<T> origin = numbers.point<T>(-0.4, 0.4), direction = numbers.direction<T>();
+        const auto expected = mesh.nearest({origin, direction}, infinity);
+        REQUIRE(expected.has_value());
+        for (const int exponent : {-30, -5, 5, 30}) {
+            const auto found = mesh.nearest({origin, std::ldexp(T(1), exponent) * direction}, infinity);
+            REQUIRE(found.has_value());
+            CHECK(found->primitive == expected->primitive);
+            CHECK(found->distance == std::ldexp(expected->distance, -exponent));
+        }
+    }
+}
+
 // A hit is the exact meeting of the ray with the triangle's plane, computed in double and rounded.
 TEST_CASE_TEMPLATE("mesh: hits lie on their triangle within the stated error and rays leave it", T, float, double) {
     Numbers numbers(8);

@@ -37,4 +37,5 @@ refuses() { # words in the message, arguments
 }
 refuses "nothing-like-it" matrix nothing-like-it
 refuses "repetitions" matrix --repetitions 0
+refuses "only under valgrind" matrix --instructions
 refuses "no-such-option" --no-such-option

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: MIT
-/// @file  Times taken by Google Benchmark, in turn, so that a busy machine slows all of them alike.
+/// @file  Times taken by Google Benchmark, in turn, so that a busy machine slows all of them alike; or instructions counted
+///        by Valgrind, which no neighbour changes.
 #pragma once
 
 #include <benchmark/benchmark.h>
+
+#if __has_include(<valgrind/callgrind.h>) && __has_include(<unistd.h>)
+#include <unistd.h>
+#include <valgrind/callgrind.h>
+#define NEPHROID_EXAMPLES_HAS_CALLGRIND
+#endif
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <string>
@@ -20,6 +29,7 @@ struct Effort {
     double seconds = 0.04;             ///< of each repetition, at least
     unsigned repetitions = 5;          ///< the least time of these counts: what a neighbour takes away is never added
     bool full = false;                 ///< the large sizes too
+    bool instructions = false;         ///< counted instead of seconds
     std::uint64_t photons = 1'000'000; ///< of the long run
 };
 
@@ -53,8 +63,50 @@ private:
     std::vector<double> seconds_;
 };
 
+/// Whether the program runs under `valgrind --tool=callgrind`, and was built to know.
+[[nodiscard]] inline bool counts_instructions() {
+#if defined(NEPHROID_EXAMPLES_HAS_CALLGRIND)
+    return RUNNING_ON_VALGRIND != 0;
+#else
+    return false;
+#endif
+}
+
+#if defined(NEPHROID_EXAMPLES_HAS_CALLGRIND)
+/// The total of the last counts that Callgrind has written to its file in the working folder; removes the file.
+[[nodiscard]] inline double take_count() {
+    static int files = 0;
+    const std::string name = "callgrind.out." + std::to_string(getpid()) + "." + std::to_string(++files);
+    std::ifstream file(name);
+    double count = std::numeric_limits<double>::quiet_NaN();
+    for (std::string line; std::getline(file, line);)
+        if (line.starts_with("totals: "))
+            count = std::stod(line.substr(8));
+    std::remove(name.c_str());
+    return count;
+}
+#endif
+
+/// What one item of each task takes in instructions of its second run, as the first one also allocates. As if each took
+/// a nanosecond, so that they can stand where seconds do.
+[[nodiscard]] inline std::vector<double> instructions_per_item([[maybe_unused]] const std::vector<Task>& tasks) {
+    std::vector<double> counts;
+#if defined(NEPHROID_EXAMPLES_HAS_CALLGRIND)
+    for (const Task& task : tasks) {
+        task.run();
+        CALLGRIND_ZERO_STATS;
+        task.run();
+        CALLGRIND_DUMP_STATS;
+        counts.push_back(1e-9 * take_count() / task.items);
+    }
+#endif
+    return counts;
+}
+
 /// Seconds of processor time (of wall clock where a task says so) for one item of each task.
 [[nodiscard]] inline std::vector<double> seconds_per_item(const Effort& effort, const std::vector<Task>& tasks) {
+    if (effort.instructions)
+        return instructions_per_item(tasks);
     static const bool initialised = [] {
         std::array<char, 10> name{"benchmark"};
         std::array<char, 46> interleave{"--benchmark_enable_random_interleaving=true"};

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstring>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,9 +27,9 @@ struct MeshData {
     std::vector<std::uint32_t> materials;                ///< one for each triangle; empty: all are material 0
 };
 
-/// Leaves hold up to four triangles in structure-of-arrays order. A test in T lets through all that might be hit, with
-/// a bound on its rounding; what passes is decided in `wide`, with a bound on that. So no ray passes between triangles
-/// that share an edge, and a hit is as exact as its vertices are.
+/// Leaves hold up to four triangles in structure-of-arrays order. A test in T of all four lets through what might be hit,
+/// with a bound on its rounding; what passes is decided in `wide`, with a bound on that. So no ray passes between
+/// triangles that share an edge, and a hit is as exact as its vertices are.
 template <class T>
 class TriangleMesh {
     using wide = wide_t<T>;
@@ -85,12 +87,10 @@ public:
 
 private:
     static constexpr std::size_t lanes = 4;
-    using Lanes = std::array<T, lanes>;
-
     /// The triangles of a leaf; vacant lanes repeat the first.
     struct alignas(16) Block {
-        std::array<std::array<Lanes, 3>, 3> vertices; ///< by vertex, then axis
-        T longest;                                    ///< edge of any of them, by the sum of its components
+        std::array<std::array<std::array<T, lanes>, 3>, 3> vertices; ///< by vertex, then axis
+        T longest; ///< edge of any of them, by the sum of its components
         std::array<std::uint32_t, lanes> triangles;
     };
 
@@ -131,17 +131,11 @@ private:
         std::optional<Candidate<T>> best;
         const auto visit = [&](std::uint32_t leaf, T nearest) {
             const Block& block = blocks_[leaf];
-            std::array<bool, lanes> passes;
-            if (!filter(block, ray, nearest, passes))
-                return nearest;
-            for (std::size_t lane = 0; lane < lanes; ++lane) {
-                if (!passes[lane])
-                    continue;
-                if (const auto found = decide(block, lane, ray, t_max)) {
+            for (unsigned passes = filter(block, ray, nearest); passes != 0; passes &= passes - 1)
+                if (const auto found = decide(block, std::size_t(std::countr_zero(passes)), ray, t_max)) {
                     best = found;
                     t_max = found->distance;
                 }
-            }
             return best && any ? -std::numeric_limits<T>::infinity() : T(t_max);
         };
         bvh_.traverse({ray.origin, ray.direction, ray.t_min, T(t_max)}, visit,
@@ -149,50 +143,62 @@ private:
         return best;
     }
 
-    /// Plücker's test, with the sums of products bounded by 8 roundings of the largest ones: false only for triangles
-    /// that the ray certainly misses. U, V and W are the volumes between ray and edges, n the triangle's normal.
-    /// Source: Davis et al. 2012 as in Embree; the bounds are ours.
-    [[nodiscard]] static bool filter(const Block& block, const Ray<T>& ray, T t_max, std::array<bool, lanes>& passes) {
-        constexpr T epsilon = T(8) * std::numeric_limits<T>::epsilon();
-        const Vec3<T> o = ray.origin, d = ray.direction;
-        const T d_size = abs(d.x) + abs(d.y) + abs(d.z);
-        const auto& [a, b, c] = block.vertices;
-        Lanes below, above, ahead, behind;
-        for (std::size_t i = 0; i < lanes; ++i) {
-            const T ax = a[0][i] - o.x, ay = a[1][i] - o.y, az = a[2][i] - o.z;
-            const T bx = b[0][i] - o.x, by = b[1][i] - o.y, bz = b[2][i] - o.z;
-            const T cx = c[0][i] - o.x, cy = c[1][i] - o.y, cz = c[2][i] - o.z;
-            const auto volume = [&d](T ex, T ey, T ez, T sx, T sy, T sz) {
-                return (ey * sz - ez * sy) * d.x + (ez * sx - ex * sz) * d.y + (ex * sy - ey * sx) * d.z;
-            };
-            const T u = volume(cx - ax, cy - ay, cz - az, cx + ax, cy + ay, cz + az);
-            const T v = volume(ax - bx, ay - by, az - bz, ax + bx, ay + by, az + bz);
-            const T w = volume(bx - cx, by - cy, bz - cz, bx + cx, by + cy, bz + cz);
-            const T ex = bx - ax, ey = by - ay, ez = bz - az, fx = cx - ax, fy = cy - ay, fz = cz - az;
-            const T nx = ey * fz - ez * fy, ny = ez * fx - ex * fz, nz = ex * fy - ey * fx;
-            const T slope = nx * d.x + ny * d.y + nz * d.z;
-            const T height = nx * ax + ny * ay + nz * az; // t = height / slope
-            const T size = abs(ax) + abs(ay) + abs(az) + block.longest;
-            const T bound = epsilon * block.longest * size * d_size;
+    using Lanes = typename RegisterOf<T>::type;
 
-            const T least = u < v ? (u < w ? u : w) : (v < w ? v : w);
-            const T most = u > v ? (u > w ? u : w) : (v > w ? v : w);
-            below[i] = -least - bound; // all positive: on the inner side of each edge
-            above[i] = most - bound;   // all negative: the same, from behind
-            const T sign = slope < T(0) ? T(-1) : T(1);
-            const T distance_bound = bound * block.longest;
-            ahead[i] = sign * height + distance_bound - ray.t_min * (sign * slope - bound);
-            behind[i] = t_max * (sign * slope + bound) - (sign * height - distance_bound);
+    /// As many vectors as a register has lanes.
+    struct Vectors {
+        Lanes x, y, z;
+
+        [[nodiscard]] Vectors minus(const Vectors& v) const { return {x - v.x, y - v.y, z - v.z}; }
+        [[nodiscard]] Lanes dot(const Vectors& v) const { return x * v.x + y * v.y + z * v.z; }
+        [[nodiscard]] Vectors cross(const Vectors& v) const {
+            return {y * v.z - z * v.y, z * v.x - x * v.z, x * v.y - y * v.x};
         }
-        bool any = false;
-        for (std::size_t i = 0; i < lanes; ++i) {
-            passes[i] = !(below[i] > T(0) && above[i] > T(0)) && !(ahead[i] < T(0)) && !(behind[i] < T(0));
-            any = any || passes[i];
-        }
-        return any;
+    };
+    static Lanes absolute(const Lanes& a) { return most(a, -a); }
+    static Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
+    static Lanes most(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
+
+    /// Möller and Trumbore's test without its divisions, with a bound on the rounding of sums of products: what does not
+    /// pass is certainly missed.
+    /// Source: Möller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection"; the bounds are ours.
+    [[nodiscard]] static auto misses(const Block& block, std::size_t first, const Ray<T>& ray, T t_max) {
+        const auto all = [](const Vec3<T>& v) { return Vectors{Lanes{} + v.x, Lanes{} + v.y, Lanes{} + v.z}; };
+        const auto vertices = [&](std::size_t i) {
+            Vectors v;
+            std::memcpy(&v.x, &block.vertices[i][0][first], sizeof v.x);
+            std::memcpy(&v.y, &block.vertices[i][1][first], sizeof v.y);
+            std::memcpy(&v.z, &block.vertices[i][2][first], sizeof v.z);
+            return v;
+        };
+        const Vectors d = all(ray.direction), a = vertices(0), to_a = a.minus(all(ray.origin));
+        const Vectors ab = vertices(1).minus(a), ac = vertices(2).minus(a);
+        const Vectors d_ac = d.cross(ac), a_ab = to_a.cross(ab);
+        // With n = ab × ac the slope is n · d, the height n · (a − o): t is their ratio. u, v and w are barycentric
+        // coordinates, times the slope.
+        const Lanes slope = -d_ac.dot(ab), height = a_ab.dot(ac);
+        const Lanes v = d_ac.dot(to_a), w = a_ab.dot(d), u = slope - v - w;
+
+        const T scale = T(16) * std::numeric_limits<T>::epsilon() * block.longest;
+        const Lanes size = absolute(to_a.x) + absolute(to_a.y) + absolute(to_a.z) + block.longest;
+        const Lanes bound = scale * T(magnitude(ray.direction)) * size, height_bound = scale * block.longest * size;
+        const Lanes steepness = absolute(slope), ahead = slope < 0 ? -height : height;
+        return ((least(u, least(v, w)) < -bound) & (most(u, most(v, w)) > bound)) |
+               (ahead + height_bound < ray.t_min * (steepness - bound)) |
+               (ahead - height_bound > t_max * (steepness + bound));
     }
 
-    /// The same in `wide`, and the hit's place. A triangle that the ray meets edge-on is not hit: its neighbours are.
+    /// Which of a leaf's triangles the ray may hit, as bits.
+    [[nodiscard]] static unsigned filter(const Block& block, const Ray<T>& ray, T t_max) {
+        decltype(Lanes{} < Lanes{}) missed{};
+        for (std::size_t first = 0; first < lanes; first += RegisterOf<T>::lanes)
+            missed |= bits_from(first, misses(block, first, ray, t_max));
+        return ~all_bits(missed) & ((1u << lanes) - 1);
+    }
+
+    /// Plücker's test in `wide`, in which triangles that share an edge compute the same for it, and the hit's place. A
+    /// triangle that the ray meets edge-on is not hit: its neighbours are.
+    /// Source: Davis et al. 2012 as in Embree; the bounds are ours.
     [[nodiscard]] static std::optional<Candidate<T>> decide(const Block& block, std::size_t lane, const Ray<T>& ray,
                                                             wide t_max) {
         const WideVec3 o = widen(ray.origin), d = widen(ray.direction);

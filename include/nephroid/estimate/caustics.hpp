@@ -19,7 +19,8 @@ namespace detail {
 /// many leaves the splats of the batch before met, so that memory does not grow with the footprints either; it grows by
 /// no more than a factor at a time. The more it has, the closer together are those that are traced one after the other.
 inline constexpr std::size_t chunks_per_batch = 64;
-inline constexpr std::size_t least_photons = 4 * chunks_per_batch, most_photons = 1024 * chunks_per_batch;
+inline constexpr std::size_t least_photons = 4 * chunks_per_batch, first_photons = 16 * chunks_per_batch,
+                             most_photons = 1024 * chunks_per_batch;
 inline constexpr std::size_t visits_per_batch = std::size_t(1) << 19, growth = 8;
 
 /// For photons that were traced before.
@@ -39,7 +40,7 @@ Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const Ad
     std::vector<Chunk> chunks(chunks_per_batch);
     std::vector<Statistics> accounts(chunks_per_batch);
     Statistics account;
-    std::uint64_t batch = growth * least_photons;
+    std::uint64_t batch = first_photons;
     for (std::uint64_t done = 0; done < pass.count;) {
         const std::uint64_t batch_end = done + (std::min)(batch, pass.count - done);
         const std::uint64_t per_chunk = (batch_end - done + chunks_per_batch - 1) / chunks_per_batch;

@@ -28,16 +28,17 @@ public:
     Statistics trace(const L& light, const Sequence& sequence, std::uint64_t first, std::uint64_t begin,
                      std::uint64_t end, const Trace& trace_one, E& executor) {
         const auto count = std::size_t(end - begin), per_task = (std::max)(least_per_task, (count + 63) / 64);
-        const std::span<const std::uint32_t> order = order_.sort(light, sequence, first + begin, count, executor);
+        const std::span<const PlacedPhoton> order = order_.sort(light, sequence, first + begin, count, executor);
         begin_ = begin;
-        records_.resize(count);
+        make_room(count, executor);
         accounts_.resize((count + per_task - 1) / per_task);
         executor(accounts_.size(), [&](std::size_t task) {
             Statistics account; // the thread's own, not beside another's in memory
             const std::size_t from = task * per_task;
-            for (const std::uint32_t number : order.subspan(from, (std::min)(per_task, count - from))) {
-                expect(records_[number]);
-                records_[number] = trace_one(begin + number, account);
+            for (const PlacedPhoton& photon : order.subspan(from, (std::min)(per_task, count - from))) {
+                Record& record = at(photon.number);
+                expect(record);
+                record = trace_one(begin + photon.number, account);
             }
             accounts_[task] = account;
         });
@@ -48,10 +49,24 @@ public:
     }
 
     /// Photon i of the pass, of the batch traced last.
-    [[nodiscard]] Record& operator[](std::uint64_t i) { return records_[std::size_t(i - begin_)]; }
+    [[nodiscard]] Record& operator[](std::uint64_t i) { return at(std::size_t(i - begin_)); }
 
 private:
-    static constexpr std::size_t least_per_task = 16;
+    static constexpr std::size_t least_per_task = 16, records_per_block = 1024;
+
+    [[nodiscard]] Record& at(std::size_t number) {
+        return blocks_[number / records_per_block][number % records_per_block];
+    }
+
+    /// New memory costs as much as a tenth of tracing: the threads share that too.
+    template <class E>
+    void make_room(std::size_t count, E& executor) {
+        const std::size_t had = blocks_.size(), want = (count + records_per_block - 1) / records_per_block;
+        if (want <= had)
+            return;
+        blocks_.resize(want);
+        executor(want - had, [&](std::size_t i) { blocks_[had + i].resize(records_per_block); });
+    }
 
     /// Asks for a record's cache lines while its photon is on its way: they lie far from the last one's.
     static void expect(const Record& record) {
@@ -65,7 +80,7 @@ private:
 
     CoherentOrder order_;
     std::uint64_t begin_ = 0;
-    std::vector<Record> records_;
+    std::vector<std::vector<Record>> blocks_;
     std::vector<Statistics> accounts_;
 };
 

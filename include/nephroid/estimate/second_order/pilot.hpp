@@ -59,9 +59,9 @@ template <class S, class L, class Sequence, class E>
                                     std::vector<Statistics>(count)};
     announce(executor, Phase::trace);
     CoherentOrder order;
-    const std::span<const std::uint32_t> numbers = order.sort(light, sequence, pilot.first, count, executor);
+    const std::span<const PlacedPhoton> sorted = order.sort(light, sequence, pilot.first, count, executor);
     for_each_index(executor, count, 512, [&](std::size_t place) {
-        const std::uint32_t i = numbers[place];
+        const std::size_t i = sorted[place].number;
         pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
     });
     return pilot;
