@@ -132,7 +132,7 @@ public:
     /// @param found   room for as many as are wanted
     /// @param limit2  only points nearer than the root of this count
     /// @param accept  accept(slot): whether a point counts at all; asked of points that lie near enough, and of their
-    ///                neighbours in the leaf order, so that it can be vectorised
+    ///                neighbours in the leaf order, so that it can be vectorised; must not look up nearest points itself
     /// @return  how many there are: found.size(), or all that count if there are fewer
     template <class Accept = AcceptAll>
     std::size_t nearest(const V& relative_position, std::span<Neighbour<T>> found,
