@@ -49,7 +49,7 @@ int main(int argc, char** argv) {
             "Times the library against nanoflann, Embree, GLM and itself; every figure is the least of several");
         std::vector<std::string> chosen_rows;
         bench::Effort effort;
-        std::string names;
+        std::string names, photons = "1e6";
         for (const auto& [name, run] : rows)
             names += std::string(name) + " ";
         app.add_option("rows", chosen_rows, "Which of: " + names + "[all]");
@@ -57,9 +57,11 @@ int main(int argc, char** argv) {
         app.add_option("--repetitions", effort.repetitions, "Of which the least time counts [5]");
         app.add_flag("--instructions", effort.instructions,
                      "Counts them, under valgrind --tool=callgrind; each is printed as a nanosecond");
-        app.add_flag("--full", effort.full, "The large sizes as well: 1.3 million triangles, 1e8 photons, 4096 x 4096");
+        app.add_flag("--full", effort.full, "The large sizes as well: 1.3 million triangles, 4096 x 4096");
+        app.add_option("--photons", photons, "Of the row long [1e6]");
         if (!parse(app, argc, argv))
             return 0;
+        effort.photons = whole_number("--photons", photons, 1);
         if (!(effort.seconds > 0 && effort.seconds <= 60) || effort.repetitions < 1 || effort.repetitions > 1000)
             throw UsageError("--seconds, --repetitions: above 0 to 60 seconds, 1 to 1000 repetitions");
 

@@ -4,6 +4,7 @@
 #include "nephroid/vector/glm.hpp"
 
 #include "emission/light/light_laws.hpp"
+#include "nephroid/emission/emission_sample.hpp"
 #include "nephroid/emission/standard_lights.hpp"
 
 #include <doctest/doctest.h>
@@ -38,6 +39,15 @@ struct Laser {
 static_assert(Light<Lights>);
 static_assert(Light<StandardLights<glm::vec3, glm::vec3>>);
 static_assert(Light<LightSet<Laser>>);
+
+constexpr EmissionDomains of_point = emission_domains<Point>, of_laser = emission_domains<Laser>,
+                          of_both = emission_domains<LightSet<Point, DiskLight<D, double>>>,
+                          of_any = emission_domains<LightSet<Point, Laser>>;
+static_assert(of_point.two && !of_point.four && !of_point.others);
+static_assert(of_laser.two && of_laser.four && of_laser.others); // it does not say
+static_assert(of_both.two && of_both.four && !of_both.others);
+static_assert(of_any.two && of_any.four && of_any.others);
+static_assert(may_draw(of_both, 4) && !may_draw(of_both, 3) && may_draw(of_any, 0));
 static_assert(Light<LightSet<Lights, Laser>>); // sets nest
 
 TEST_CASE("light set: a single light emits as if it were alone and draws no sample more") {
@@ -79,6 +89,15 @@ TEST_CASE("light set: photons are shared by power and their footprints follow") 
         CHECK(length(photon.differential[0].d_direction) == doctest::Approx(own.length(4 * pi<double>)).epsilon(1e-13));
     }
     CHECK(std::abs(from_strong / double(n) - 0.75) <= 5 * std::sqrt(0.75 * 0.25 / double(n)));
+}
+
+TEST_CASE("light set: dark lights alone draw as many numbers as they say") {
+    const LightSet<Point> dark({Point({.position = D(0), .intensity = 0}), Point({.position = D(1), .intensity = 0})});
+    GivenSamples given({0.5, 0.25, 0.75});
+    RecordingSource recorder(given);
+    (void)dark.emit(recorder, Spread<double>{10, 1});
+    CHECK(recorder.sample().dimensions == Point::dimensions);
+    CHECK(recorder.sample().at[0] == 0.25);
 }
 
 TEST_CASE("light set: a dark light gets no photons and dark lights alone send none with flux") {

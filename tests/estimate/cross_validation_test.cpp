@@ -25,6 +25,8 @@ using namespace nephroid;
 using detail::QuarterPictures;
 using tests::Draws;
 using tests::FirstOrderPolicies;
+using tests::floor_of;
+using tests::map_of;
 using tests::Vec;
 
 namespace {
@@ -49,6 +51,8 @@ template <class V>
 /// neighbours.
 template <class L>
 struct Undescribed : L {
+    static constexpr std::uint32_t dimensions = L::dimensions + 1;
+
     template <class S>
     [[nodiscard]] auto emit(S& samples, const Spread<scalar_t<typename L::vector>>& spread) const {
         auto photon = L::emit(samples, spread);
@@ -56,23 +60,6 @@ struct Undescribed : L {
         return photon;
     }
 };
-
-template <class V>
-[[nodiscard]] std::vector<tests::FloorVertex<V>> floor_of(int side, double reach = 0.8) {
-    using T = scalar_t<V>;
-    std::vector<tests::FloorVertex<V>> vertices;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            vertices.push_back(
-                {make_vector<V>(T(reach * (2 * (x + 0.5) / side - 1)), T(reach * (2 * (y + 0.5) / side - 1)), T(0)),
-                 make_vector<V>(T(0), T(0), T(1))});
-    return vertices;
-}
-
-template <class V>
-[[nodiscard]] EyePathMap<V> map_of(const std::vector<tests::FloorVertex<V>>& vertices) {
-    return EyePathMap<V>(vertices, &tests::FloorVertex<V>::position, &tests::FloorVertex<V>::normal);
-}
 
 template <class Policies, class L, class S, class E = SerialExecutor>
 [[nodiscard]] auto render(const S& scene, const L& light, const PhotonPass& pass, E&& executor = E{}) {

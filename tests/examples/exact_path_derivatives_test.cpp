@@ -34,8 +34,6 @@ using ShapeHit = nephroid::examples::Hit<T>;
 using Once = Dual<double, 2>;
 using Twice = Dual<Once, 2>;
 
-constexpr double photons = 1000;
-
 /// One shape over the floor z = 0, of glass with an index of refraction, or a mirror where that is 0.
 template <class T, template <class> class Shape>
 struct OverFloor {
@@ -72,22 +70,11 @@ struct OverFloor {
     return tests::on_plane(ray.origin, ray.direction, point(0, 0, 0), point(0, 0, 1));
 }
 
-/// Calls check(photon, its sampler after emission) for some photons of a light.
-template <class L, class Check>
-void for_photons(const L& light, const Check& check) {
-    const HaltonSequence sequence(1);
-    for (std::uint64_t i = 0; i < 8; ++i) {
-        Sampler<HaltonSequence> sampler(sequence, i);
-        const auto photon = light.emit(sampler, Spread<double>{photons, 1});
-        check(photon, sampler);
-    }
-}
-
 /// @param scene  scene(T()): in the scalar T
 /// @param end    where a ray ends, in wide precision
 template <class L, class MakeScene, class End>
 void check(const L& light, const MakeScene& scene, const End& end) {
-    for_photons(light, [&](const auto& photon, auto sampler) {
+    tests::for_photons(light, [&](const auto& photon, auto sampler) {
         auto again = sampler, plain = sampler;
         const auto twice = exact_path_derivatives<Vec3<Twice>>(scene(Twice()), photon, sampler);
         const auto once = exact_path_derivatives<Vec3<Once>>(scene(Once()), photon, again);

@@ -44,7 +44,6 @@ void check_floor_and_wall(const EyePathMap<V>& map) {
     std::vector<int> seen(vertices.size());
     for (std::uint32_t number = 0; number < map.tree().leaves().size(); ++number) {
         const TreeLeaf leaf = map.tree().leaves()[number];
-        const Box<T>& normals = map.leaf(number).normals;
         for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot) {
             const std::size_t index = map.tree().index(slot);
             ++seen.at(index);
@@ -52,11 +51,11 @@ void check_floor_and_wall(const EyePathMap<V>& map) {
             CHECK(map.normal_x()[slot] == (on_floor ? T(0) : T(-1)));
             CHECK(map.normal_y()[slot] == T(0));
             CHECK(map.normal_z()[slot] == (on_floor ? T(1) : T(0)));
-            CHECK(normals.low[0] <= map.normal_x()[slot]);
-            CHECK(normals.high[2] >= map.normal_z()[slot]);
+            const auto& n = map.leaf(number).normal;
+            CHECK(n == std::array<T, 3>{map.normal_x()[slot], map.normal_y()[slot], map.normal_z()[slot]});
         }
         // 100 units apart: no leaf has vertices of both, so every one has a lattice of its own and one normal.
-        CHECK(normals.low == normals.high);
+        CHECK(map.leaf(number).spread == T(0));
     }
     CHECK(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
     CHECK(map.spacing_at(make_vector<V>(T(3), T(3), T(0.01))) == T(0.25));
@@ -208,4 +207,29 @@ TEST_CASE_TEMPLATE("eye path map: on the walls of a room the spacing is that of 
         off += std::abs(double(map.leaf(leaf).spacing) * n - 1) > 0.02;
     CAPTURE(leaves);
     CHECK(off < leaves / 10);
+}
+
+// Whether a whole leaf faces a photon is told from these two.
+TEST_CASE("eye path map: no normal is further from the middle of its leaf's than the leaf's spread") {
+    struct Vertex {
+        glm::vec3 position, normal;
+    };
+    std::vector<Vertex> ball;
+    for (int i = 0; i < 2000; ++i) {
+        const float z = 1 - float(2 * i + 1) / 2000, turn = 2.399963f * float(i), radius = std::sqrt(1 - z * z);
+        const glm::vec3 at(radius * std::cos(turn), radius * std::sin(turn), z);
+        ball.push_back({at, at});
+    }
+    const EyePathMap<glm::vec3> map(ball, &Vertex::position, &Vertex::normal);
+    for (std::uint32_t number = 0; number < map.tree().leaves().size(); ++number) {
+        const auto& known = map.leaf(number);
+        const TreeLeaf leaf = map.tree().leaves()[number];
+        float largest = 0;
+        for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
+            largest = (std::max)(largest, std::hypot(map.normal_x()[slot] - known.normal[0],
+                                                     map.normal_y()[slot] - known.normal[1],
+                                                     map.normal_z()[slot] - known.normal[2]));
+        CHECK(largest <= known.spread * (1 + 1e-6f));
+        CHECK(known.spread < 2 * largest); // a leaf of 50 in 2000 is a twentieth of a ball: its bounds' corner is near
+    }
 }

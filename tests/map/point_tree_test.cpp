@@ -254,6 +254,15 @@ TEST_CASE_TEMPLATE("point tree: the nearest leaf is the one that brute force fin
     });
 }
 
+TEST_CASE("point tree: no point is nearest to a place that is no number") {
+    std::vector<glm::vec3> cloud;
+    for (int i = 0; i < 200; ++i)
+        cloud.push_back({float(i), 0, 0});
+    const PointTree<glm::vec3> tree(cloud.size(), [&](std::size_t i) { return cloud[i]; });
+    std::vector<Neighbour<float>> found(20);
+    CHECK(tree.nearest({0, std::nanf(""), 0}, found) == 0);
+}
+
 // Distances agree to four roundings: the compiler may fuse a product and a sum in one place and not in the other.
 TEST_CASE_TEMPLATE("point tree: the nearest points are those that brute force finds", T, float, double) {
     using V = glm::vec<3, T>;
@@ -359,9 +368,6 @@ TEST_CASE_TEMPLATE("point tree: the nearest points within a limit and of those a
             const std::size_t count = tree.nearest(place, found, limit2, accepts);
             REQUIRE(count == (std::min)(wanted, all.size()));
             found.resize(count);
-            if (count == wanted)
-                for (const auto& n : found)
-                    REQUIRE(n.distance2 <= found.front().distance2); // the farthest comes first
             std::sort(found.begin(), found.end(),
                       [](const auto& a, const auto& b) { return a.distance2 < b.distance2; });
             for (std::size_t i = 0; i < count; ++i) {

@@ -55,6 +55,27 @@ struct FloorVertex {
     V position, normal;
 };
 
+template <class V>
+using Floor = std::vector<FloorVertex<V>>;
+
+/// side × side vertices over the caustic that a ball of glass above the origin makes.
+template <class V>
+[[nodiscard]] Floor<V> floor_of(int side, double reach = 0.8) {
+    using T = scalar_t<V>;
+    Floor<V> vertices;
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x)
+            vertices.push_back(
+                {make_vector<V>(T(reach * (2 * (x + 0.5) / side - 1)), T(reach * (2 * (y + 0.5) / side - 1)), T(0)),
+                 make_vector<V>(T(0), T(0), T(1))});
+    return vertices;
+}
+
+template <class V>
+[[nodiscard]] EyePathMap<V> map_of(const Floor<V>& vertices) {
+    return EyePathMap<V>(vertices, &FloorVertex<V>::position, &FloorVertex<V>::normal);
+}
+
 /// The irradiance at side x side places on the floor around the caustic, under light that comes down with irradiance
 /// `sun` at a slant.
 template <class Policies = SplatPolicies<>, Vector3 V, Flux F>

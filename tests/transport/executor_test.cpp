@@ -7,6 +7,7 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 using namespace nephroid;
 
@@ -130,6 +131,25 @@ TEST_CASE("thread executor: a task may be an object that is called by reference"
     ThreadExecutor executor(2);
     executor(100, counter);
     CHECK(counter.calls == 100);
+}
+
+TEST_CASE("executors: indices in groups are each met once and few wake nobody") {
+    std::size_t calls = 0;
+    const auto counting = [&](std::size_t count, auto&& task) {
+        ++calls;
+        SerialExecutor{}(count, task);
+    };
+    for (const std::size_t count : {0u, 1u, 9u, 10u, 11u, 19u, 20u, 21u, 100u}) {
+        std::vector<int> met(count);
+        calls = 0;
+        detail::for_each_index(counting, count, 10, [&](std::size_t i) { ++met[i]; });
+        CHECK(met == std::vector<int>(count, 1));
+        CHECK(calls == (count > 10 ? 1 : 0));
+    }
+    std::vector<int> met(100);
+    const TaskRunner erased = detail::run_by(counting);
+    detail::for_each_index(erased, met.size(), 10, [&](std::size_t i) { ++met[i]; });
+    CHECK(met == std::vector<int>(100, 1));
 }
 
 TEST_CASE("thread executor: lives and dies without work") {

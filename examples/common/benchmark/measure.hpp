@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <fstream>
 #include <functional>
@@ -25,10 +26,11 @@ namespace nephroid::examples::benchmarks {
 
 /// How long to measure. The defaults are short; a quiet machine needs no more.
 struct Effort {
-    double seconds = 0.04;     ///< of each repetition, at least
-    unsigned repetitions = 5;  ///< the least time of these counts: what a neighbour takes away is never added
-    bool full = false;         ///< the large sizes too
-    bool instructions = false; ///< counted instead of seconds
+    double seconds = 0.04;             ///< of each repetition, at least
+    unsigned repetitions = 5;          ///< the least time of these counts: what a neighbour takes away is never added
+    bool full = false;                 ///< the large sizes too
+    bool instructions = false;         ///< counted instead of seconds
+    std::uint64_t photons = 1'000'000; ///< of the long run
 };
 
 /// What is timed: `run` is called again and again, and does `items` pieces of work each time.

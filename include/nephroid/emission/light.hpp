@@ -6,6 +6,7 @@
 #include "nephroid/emission/spread.hpp"
 
 #include <concepts>
+#include <cstdint>
 
 namespace nephroid {
 
@@ -52,6 +53,8 @@ concept EstimatesPower = requires(const L light) {
 ///   first, and its maps from samples to positions and directions are continuous where they can be, for stratified
 ///   sequences. The first two tangents are an aligned pair of orthogonal ones at emission (emission/aligned_basis.hpp);
 ///   a light may add more. It does not throw; a photon's flux may be zero.
+/// - `dimensions`, optional: how many samples it draws, `static constexpr std::uint32_t`. Where the compiler knows, it
+///   compiles only what such a light needs. A light derived from one that draws another number says so anew.
 /// - `power()`: an estimate of that flux, `flux_traits::power`'s unit. Photons are shared among lights by it, so it
 ///   may be zero only where the flux is.
 ///
@@ -81,6 +84,31 @@ concept EstimatesPower = requires(const L light) {
 /// The compiler checks the calls; `tests/emission/light/light_laws.hpp` checks the meaning, for every model.
 template <class L>
 concept Light = std::copyable<L> && detail::SaysWhatItEmits<L> && detail::EmitsPhotons<L> && detail::EstimatesPower<L>;
+
+/// How many samples a light may draw for a photon, as far as it tells the compiler. Two and four say which photons are
+/// neighbours (emission_sample.hpp).
+struct EmissionDomains {
+    bool two = true, four = true, others = true;
+
+    [[nodiscard]] friend constexpr EmissionDomains operator|(EmissionDomains a, EmissionDomains b) {
+        return {a.two || b.two, a.four || b.four, a.others || b.others};
+    }
+};
+
+[[nodiscard]] constexpr bool may_draw(EmissionDomains domains, std::uint32_t dimensions) {
+    return dimensions == 2 ? domains.two : dimensions == 4 ? domains.four : domains.others;
+}
+
+/// Those of a light: by its `dimensions`, or, for a light of several, by its `domains`.
+template <class L>
+inline constexpr EmissionDomains emission_domains = [] {
+    if constexpr (requires { L::domains; })
+        return L::domains;
+    else if constexpr (requires { L::dimensions; })
+        return EmissionDomains{L::dimensions == 2, L::dimensions == 4, L::dimensions != 2 && L::dimensions != 4};
+    else
+        return EmissionDomains{};
+}();
 
 namespace detail {
 template <class L>

@@ -28,6 +28,7 @@ public:
     using vector = typename First::vector;
     using flux_type = typename First::flux_type;
     using T = scalar_t<vector>;
+    static constexpr EmissionDomains domains = (emission_domains<First> | ... | emission_domains<Others>);
     using AnyLight = std::variant<First, Others...>;
 
     /// Throws std::invalid_argument for no lights, and for a power that is negative or not finite.
@@ -56,11 +57,12 @@ public:
             return emit_from(0, samples, spread);
         const double place = samples.template next<double>() * total_power_;
         const auto found = std::upper_bound(power_up_to_.begin(), power_up_to_.end(), place);
-        if (found == power_up_to_.end()) // no light has any power: each photon is the first one's, without flux
-            return emit_from(0, samples, spread);
-        const std::size_t chosen = static_cast<std::size_t>(found - power_up_to_.begin());
+        const bool is_dark = found == power_up_to_.end(); // all are: each photon is the first one's, without flux
+        const std::size_t chosen = is_dark ? 0 : static_cast<std::size_t>(found - power_up_to_.begin());
         if constexpr (requires { samples.chose(chosen); })
             samples.chose(chosen);
+        if (is_dark)
+            return emit_from(0, samples, spread);
         const T probability = static_cast<T>(power_[chosen] / total_power_);
         return emit_from(chosen, samples, Spread<T>{spread.photons * probability, spread.smoothing});
     }

@@ -90,11 +90,10 @@ void add_placed(const Footprints& footprints, Photon& photon, const Splatter& sp
 
 /// Whether footprints are to be placed and sized by neighbouring photons: they need differentials for it.
 template <class Policies, class L>
-inline constexpr bool is_second_order = requires(const Policies policies) {
+inline constexpr bool is_second_order = Light<L> && requires(const Policies policies) {
     requires std::derived_from<std::remove_cvref_t<decltype(policies.order)>, SecondOrder>;
     requires std::same_as<std::remove_cvref_t<decltype(policies.shape)>, DifferentialFootprint>;
-}
-&&Light<L>;
+};
 } // namespace detail
 
 /// Emits photons, walks them through the scene and splats them onto an eye path map.
@@ -112,59 +111,60 @@ inline constexpr bool is_second_order = requires(const Policies policies) {
 /// Memory: the splatter's sums, one batch, and the pilot photons of second-order splatting, whatever the number of
 /// photons; while a smoothing is chosen for lights without cells (cross_validation.hpp), the sums twice.
 template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
-          detail::MustBeSequence Sequence = HaltonSequence, class E = SerialExecutor>
-    requires detail::MustBeScene<S, V, Sampler<Sequence>> && detail::MustEmit<L, V, F> && ExecutorArgument<E>
-        Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, Policies, Response>& splatter,
-                                  const PhotonPass& pass, const Sequence& sequence = Sequence{}, E&& executor = E{}) {
-        using T = scalar_t<V>;
-        detail::check(pass, "nephroid::splat_caustics");
-        if constexpr (detail::is_second_order<Policies, L>) {
-            detail::check(splatter.policies().order, "nephroid::splat_caustics");
-            const auto pilot = detail::trace_pilot(scene, light, pass, splatter.policies().order, sequence, executor);
-            auto footprints = detail::footprints_from(
-                pilot, pass, splatter.policies(), double(splatter.map().diagonal()), Sequence::stratified, executor);
+          detail::MustBeSequence Sequence = HaltonSequence, ExecutorArgument E = SerialExecutor>
+    requires(detail::MustBeScene<S, V, Sampler<Sequence>> && detail::MustEmit<L, V, F>)
+Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, Policies, Response>& splatter,
+                          const PhotonPass& pass, const Sequence& sequence = Sequence{}, E&& executor = E{}) {
+    using T = scalar_t<V>;
+    detail::check(pass, "nephroid::splat_caustics");
+    if constexpr (detail::is_second_order<Policies, L>) {
+        detail::check(splatter.policies().order, "nephroid::splat_caustics");
+        const auto pilot = detail::trace_pilot(scene, light, pass, splatter.policies().order, sequence, executor);
+        auto footprints = detail::footprints_from<emission_domains<L>>(
+            pilot, pass, splatter.policies(), double(splatter.map().diagonal()), Sequence::stratified, executor);
+        if constexpr (emission_domains<L>.others)
             if (!pass.smoothing)
                 footprints.smooth_others(
                     detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
-            detail::TracedBatch<detail::traced_photon_t<L>> batch;
-            return detail::splat_in_batches(
-                splatter, pass,
-                [&](std::uint64_t i, auto& chunk, Statistics& account) {
-                    if (batch[i].deposit)
-                        detail::add_placed(footprints, batch[i], splatter, chunk, account);
-                },
-                executor,
-                [&](std::uint64_t begin, std::uint64_t end) {
-                    return batch.trace(
-                        light, sequence, pass.first, begin, end,
-                        [&](std::uint64_t i, Statistics& account) {
-                            return pilot.has(pass.first + i)
-                                       ? pilot.take(pass.first + i, account)
-                                       : detail::trace_photon(scene, light, pass, sequence, pass.first + i, account);
-                        },
-                        executor);
-                });
-        } else {
-            const Spread<T> spread = detail::spread_of<T>(pass);
-            detail::TracedBatch<std::optional<Deposit<V, F, detail::tangent_count_of<L>>>> batch;
-            return detail::splat_in_batches(
-                splatter, pass,
-                [&](std::uint64_t i, auto& chunk, Statistics& account) {
-                    if (const auto& deposit = batch[i])
-                        chunk.add(splatter, *deposit, account);
-                },
-                executor,
-                [&](std::uint64_t begin, std::uint64_t end) {
-                    return batch.trace(
-                        light, sequence, pass.first, begin, end,
-                        [&](std::uint64_t i, Statistics& account) {
-                            Sampler<Sequence> sampler(sequence, pass.first + i);
-                            const auto photon = light.emit(sampler, spread);
-                            return walk(scene, photon, sampler, pass.limits, account);
-                        },
-                        executor);
-                });
-        }
+        detail::TracedBatch<detail::traced_photon_t<L>> batch;
+        return detail::splat_in_batches(
+            splatter, pass,
+            [&](std::uint64_t i, auto& chunk, Statistics& account) {
+                if (batch[i].deposit)
+                    detail::add_placed(footprints, batch[i], splatter, chunk, account);
+            },
+            executor,
+            [&](std::uint64_t begin, std::uint64_t end) {
+                return batch.trace(
+                    light, sequence, pass.first, begin, end,
+                    [&](std::uint64_t i, Statistics& account) {
+                        return pilot.has(pass.first + i)
+                                   ? pilot.take(pass.first + i, account)
+                                   : detail::trace_photon(scene, light, pass, sequence, pass.first + i, account);
+                    },
+                    executor);
+            });
+    } else {
+        const Spread<T> spread = detail::spread_of<T>(pass);
+        detail::TracedBatch<std::optional<Deposit<V, F, detail::tangent_count_of<L>>>> batch;
+        return detail::splat_in_batches(
+            splatter, pass,
+            [&](std::uint64_t i, auto& chunk, Statistics& account) {
+                if (const auto& deposit = batch[i])
+                    chunk.add(splatter, *deposit, account);
+            },
+            executor,
+            [&](std::uint64_t begin, std::uint64_t end) {
+                return batch.trace(
+                    light, sequence, pass.first, begin, end,
+                    [&](std::uint64_t i, Statistics& account) {
+                        Sampler<Sequence> sampler(sequence, pass.first + i);
+                        const auto photon = light.emit(sampler, spread);
+                        return walk(scene, photon, sampler, pass.limits, account);
+                    },
+                    executor);
+            });
     }
+}
 
 } // namespace nephroid

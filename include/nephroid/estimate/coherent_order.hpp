@@ -133,8 +133,7 @@ private:
     }
 
     std::vector<PlacedPhoton> photons_, sorted_;
-    std::vector<std::array<std::size_t, parts>>
-        begin_; ///< by task and part: first how many, then where the next one goes
+    std::vector<std::array<std::size_t, parts>> begin_; ///< by task: how many of each part, then where the next goes
 };
 
 } // namespace nephroid

@@ -33,15 +33,11 @@ void estimate_at(const Vertices& vertices, Position position, Normal normal, con
                                                        std::invoke_result_t<Normal&, Vertex>>>;
     static_assert(Sink<std::remove_reference_t<S>, F>,
                   "nephroid::estimate_at: the sink takes (vertex index, estimate)");
-    constexpr std::size_t per_task = 256;
     const std::size_t count = std::size_t(std::ranges::size(vertices));
     std::vector<F> estimates(count, flux_traits<F>::zero());
-    executor((count + per_task - 1) / per_task, [&](std::size_t task) {
-        const std::size_t end = (std::min)(count, (task + 1) * per_task);
-        for (std::size_t i = task * per_task; i < end; ++i) {
-            auto&& vertex = std::ranges::begin(vertices)[std::ranges::range_difference_t<const Vertices>(i)];
-            estimates[i] = estimate(std::invoke(position, vertex), std::invoke(normal, vertex));
-        }
+    detail::for_each_index(executor, count, 256, [&](std::size_t i) {
+        auto&& vertex = std::ranges::begin(vertices)[std::ranges::range_difference_t<const Vertices>(i)];
+        estimates[i] = estimate(std::invoke(position, vertex), std::invoke(normal, vertex));
     });
     for (std::size_t i = 0; i < count; ++i)
         sink(i, std::as_const(estimates[i]));

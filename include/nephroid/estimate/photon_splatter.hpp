@@ -5,7 +5,7 @@
 /// bit for any number of threads, without atomics or locks, and its vertices stay in cache.
 #pragma once
 
-#include "nephroid/estimate/splat.hpp"
+#include "nephroid/estimate/splat_reach.hpp"
 #include "nephroid/transport/executor.hpp"
 #include "nephroid/transport/sink.hpp"
 
@@ -85,15 +85,16 @@ public:
         /// @return  whether it meets a leaf with vertices that may lie in it and face it
         template <class Takes = EveryLeaf>
         bool add(const PhotonSplatter& splatter, const Splat<V, F>& splat, const Takes& takes = {}) {
-            const std::size_t before = leaves_.size();
+            const std::size_t before = visits_.size();
             const auto number = std::uint32_t(splats_.size());
+            const detail::SplatReach<V, F> reach(splat);
             splatter.map_->tree().visit_leaves(splat.box, [&](std::uint32_t leaf) {
-                if (!takes(leaf) || splatter.facing(leaf, splat) < 0 || !splatter.may_reach(splat, leaf))
+                if (!takes(leaf))
                     return;
-                leaves_.push_back(leaf);
-                numbers_.push_back(number);
+                if (const detail::LeafMeeting meeting = reach(splatter.map_->leaf(leaf)); meeting.meets)
+                    visits_.push_back({leaf, number, meeting});
             });
-            if (leaves_.size() == before)
+            if (visits_.size() == before)
                 return false;
             splats_.push_back(splat);
             return true;
@@ -101,12 +102,11 @@ public:
 
         void clear() {
             splats_.clear();
-            leaves_.clear();
-            numbers_.clear();
+            visits_.clear();
         }
 
         /// How many times a leaf is met by a splat.
-        [[nodiscard]] std::size_t visits() const { return leaves_.size(); }
+        [[nodiscard]] std::size_t visits() const { return visits_.size(); }
 
     private:
         friend PhotonSplatter;
@@ -124,8 +124,14 @@ public:
             return outcome.splat && !add(splatter, *outcome.splat, takes) ? Fate::unseen : outcome.fate;
         }
 
+        /// This leaf is met by the splat with this number.
+        struct Visit {
+            std::uint32_t leaf, number;
+            detail::LeafMeeting meeting;
+        };
+
         std::vector<Splat<V, F>> splats_;
-        std::vector<std::uint32_t> leaves_, numbers_; // pairs: this leaf is met by the splat with this number
+        std::vector<Visit> visits_;
     };
 
     /// Adds the photons of consecutive chunks, in order.
@@ -139,7 +145,7 @@ public:
             const std::size_t end = (std::min)(leaves, (task + 1) * leaves_per_task);
             for (std::size_t leaf = task * leaves_per_task; leaf < end; ++leaf)
                 for (std::size_t i = bin_begin_[leaf]; i < bin_begin_[leaf + 1]; ++i)
-                    splat_leaf(*bins_[i], std::uint32_t(leaf));
+                    splat_leaf(bins_[i], map_->tree().leaves()[leaf]);
         });
     }
 
@@ -160,70 +166,32 @@ public:
     }
 
 private:
+    /// A splat that meets the leaf in whose bin it is.
+    struct Binned {
+        const Splat<V, F>* splat;
+        detail::LeafMeeting meeting;
+    };
+
     /// Sorts the chunks' splats by leaf, keeping the photons' order: a counting sort.
     void bin(std::span<const Chunk> chunks) {
         bin_begin_.assign(map_->tree().leaves().size() + 1, 0);
         for (const Chunk& chunk : chunks)
-            for (const std::uint32_t leaf : chunk.leaves_)
-                ++bin_begin_[leaf + 1];
+            for (const auto& visit : chunk.visits_)
+                ++bin_begin_[visit.leaf + 1];
         for (std::size_t leaf = 1; leaf < bin_begin_.size(); ++leaf)
             bin_begin_[leaf] += bin_begin_[leaf - 1];
         bins_.resize(bin_begin_.back());
         bin_end_ = bin_begin_;
         for (const Chunk& chunk : chunks)
-            for (std::size_t i = 0; i < chunk.leaves_.size(); ++i)
-                bins_[bin_end_[chunk.leaves_[i]]++] = &chunk.splats_[chunk.numbers_[i]];
-    }
-
-    /// Whether the vertices of a leaf face the photon: +1 all do, -1 none does, 0 some may.
-    [[nodiscard]] int facing(std::uint32_t leaf, const Splat<V, F>& splat) const {
-        using t = vector_traits<V>;
-        const Box<T>& normals = map_->leaf(leaf).normals;
-        const std::array<T, 3> n = {t::x(splat.normal), t::y(splat.normal), t::z(splat.normal)};
-        T least(0), most(0);
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const T a = n[axis] * normals.low[axis], b = n[axis] * normals.high[axis];
-            least = least + (std::min)(a, b);
-            most = most + (std::max)(a, b);
-        }
-        return least > T(0) ? 1 : most > T(0) ? 0 : -1;
-    }
-
-    /// Where a linear function of place, 0 at the splat's centre, lies on a leaf's box: in middle ± reach, rounding included,
-    /// as the terms for a thin footprint are large and cancel.
-    struct Range {
-        T middle, reach;
-    };
-    [[nodiscard]] static Range range_of(const V& row, const V& centre, const EyePathLeaf<T>& leaf) {
-        using t = vector_traits<V>;
-        const T x = t::x(row), y = t::y(row), z = t::z(row);
-        const T a = x * (leaf.middle[0] - t::x(centre)), b = y * (leaf.middle[1] - t::y(centre)),
-                c = z * (leaf.middle[2] - t::z(centre));
-        return {a + b + c, abs(x) * leaf.half[0] + abs(y) * leaf.half[1] + abs(z) * leaf.half[2] +
-                               rounding * (abs(a) + abs(b) + abs(c))};
-    }
-
-    /// False only if no vertex of the leaf lies in the footprint: whose box the leaf meets, at a corner.
-    [[nodiscard]] bool may_reach(const Splat<V, F>& splat, std::uint32_t number) const {
-        const EyePathLeaf<T>& leaf = map_->leaf(number);
-        const auto least2 = [&](const V& row) {
-            const Range range = range_of(row, splat.centre, leaf);
-            return square((std::max)(T(0), abs(range.middle) - range.reach));
-        };
-        return !(least2(splat.row_a) + least2(splat.row_b) > T(1) + rounding);
-    }
-
-    /// Whether all vertices of the leaf certainly lie within the normal distance.
-    [[nodiscard]] bool within_slab(const Splat<V, F>& splat, std::uint32_t number) const {
-        const Range range = range_of(splat.row_n, splat.centre, map_->leaf(number));
-        return abs(range.middle) + range.reach < T(1) - rounding;
+            for (const auto& visit : chunk.visits_)
+                bins_[bin_end_[visit.leaf]++] = {&chunk.splats_[visit.number], visit.meeting};
     }
 
     /// Adds one photon to the vertices of one leaf.
-    void splat_leaf(const Splat<V, F>& splat, std::uint32_t leaf) {
+    void splat_leaf(const Binned& binned, const TreeLeaf& range) {
         using t = vector_traits<V>;
         constexpr std::size_t most = PointTree<V>::leaf_size;
-        const TreeLeaf range = map_->tree().leaves()[leaf];
+        const Splat<V, F>& splat = *binned.splat;
         const std::size_t lanes = PointTree<V>::lanes;
         const std::size_t size = (range.size + lanes - 1) / lanes * lanes;
         std::array<T, most> weight;
@@ -240,14 +208,14 @@ private:
             const T b = bx * dx + by * dy + bz * dz;
             weight[i] = kernel(a * a + b * b);
         }
-        if (!within_slab(splat, leaf)) {
+        if (binned.meeting.checks_height) {
             const T nx = t::x(splat.row_n), ny = t::y(splat.row_n), nz = t::z(splat.row_n);
             for (std::size_t i = 0; i < size; ++i) {
                 const T off = nx * (x[i] - cx) + ny * (y[i] - cy) + nz * (z[i] - cz);
                 weight[i] = keep_if(off * off < T(1), weight[i]);
             }
         }
-        if (facing(leaf, splat) == 0) {
+        if (binned.meeting.checks_normals) {
             const T px = t::x(splat.normal), py = t::y(splat.normal), pz = t::z(splat.normal);
             const T* const mx = map_->normal_x() + range.first;
             const T* const my = map_->normal_y() + range.first;
@@ -269,14 +237,12 @@ private:
         }
     }
 
-    static constexpr T rounding = T(64) * std::numeric_limits<T>::epsilon(); ///< of what is compared with 1
-
     const EyePathMap<V>* map_;
     Policies policies_;
     Response response_;
     std::vector<F> sums_; // by slot
     std::vector<std::size_t> bin_begin_, bin_end_;
-    std::vector<const Splat<V, F>*> bins_;
+    std::vector<Binned> bins_;
 };
 
 } // namespace nephroid

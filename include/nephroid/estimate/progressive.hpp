@@ -115,12 +115,8 @@ public:
     void add(const PhotonMap<V, F>& map, std::uint64_t emitted, E&& executor = E{}) {
         if (emitted == 0)
             invalid_argument("nephroid::ProgressivePhotonMapping::add: emitted is 0; it must be at least 1");
-        constexpr std::size_t per_task = 256;
-        executor((vertices_.size() + per_task - 1) / per_task, [&](std::size_t task) {
-            const std::size_t end = (std::min)(vertices_.size(), (task + 1) * per_task);
-            for (std::size_t i = task * per_task; i < end; ++i)
-                add_to(vertices_[i], map, double(emitted));
-        });
+        detail::for_each_index(executor, vertices_.size(), 256,
+                               [&](std::size_t i) { add_to(vertices_[i], map, double(emitted)); });
         emitted_ += double(emitted);
     }
 

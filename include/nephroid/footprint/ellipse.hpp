@@ -105,19 +105,24 @@ struct FilterMatrix {
     V row_a, row_b;
 };
 
-/// M for semi-axes a and b: the top rows of the inverse of [a b n], without inverting a 3 × 3 matrix.
-/// The ellipse must not have collapsed: |a × b| > 0 (not checked).
+/// M for semi-axes a and b: the top rows of the inverse of [a b n], without inverting a 3 × 3 matrix: b × n and n × a,
+/// over a · (b × n).
+///
+/// In plain products: a and b lie across n, so nothing cancels in the rows' lengths, and what does in the determinant
+/// costs no more than the rounding of the rows themselves, a few epsilon of |a| |b| / |a × b|.
+/// The ellipse must not have collapsed: |a × b| > 0; |a| |b| must be in the scalar's range (neither is checked).
 /// Source: Frisvad et al. 2014, eq. 12.
 template <Vector3 V>
 [[nodiscard]] FilterMatrix<V> filter_matrix(const Ellipse<V>& ellipse) {
+    using t = vector_traits<V>;
     using T = scalar_t<V>;
-    using W = wider_t<T>;
-    const auto a = detail::widened(ellipse.a), b = detail::widened(ellipse.b), n = detail::widened(ellipse.normal);
-    const W inverse = W(1) / detail::wide_dot(n, detail::wide_cross<V>(a, b));
-    const auto row = [&](const detail::Wide3<V>& v) {
-        return make_vector<V>(T(inverse * v[0]), T(inverse * v[1]), T(inverse * v[2]));
-    };
-    return {row(detail::wide_cross<V>(b, n)), row(detail::wide_cross<V>(n, a))};
+    const T ax = t::x(ellipse.a), ay = t::y(ellipse.a), az = t::z(ellipse.a);
+    const T bx = t::x(ellipse.b), by = t::y(ellipse.b), bz = t::z(ellipse.b);
+    const T nx = t::x(ellipse.normal), ny = t::y(ellipse.normal), nz = t::z(ellipse.normal);
+    const T x = by * nz - bz * ny, y = bz * nx - bx * nz, z = bx * ny - by * nx;
+    const T inverse = T(1) / (ax * x + ay * y + az * z);
+    return {t::make(inverse * x, inverse * y, inverse * z),
+            t::make(inverse * (ny * az - nz * ay), inverse * (nz * ax - nx * az), inverse * (nx * ay - ny * ax))};
 }
 
 /// The ratio of the minor to the major radius, σ_min/σ_max, in [0, 1]; 1 is a circle, and so is a point.

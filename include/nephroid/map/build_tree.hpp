@@ -7,6 +7,8 @@
 #include <nanoflann.hpp>
 
 #include <algorithm>
+#include <bit>
+#include <type_traits>
 #include <vector>
 
 namespace nephroid::detail {
@@ -57,9 +59,26 @@ public:
 private:
     using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<T, PointCloud<T>>, PointCloud<T>, 3,
                                                       std::uint32_t>;
+
+    /// A point. Its index rides along as a fourth coordinate, so that one is moved and compared as a vector of four.
     struct Point {
-        std::array<T, 3> at;
-        std::uint32_t index;
+        std::array<T, 4> at;
+
+        Point(const std::array<T, 3>& place, std::uint32_t index) : at{place[0], place[1], place[2], packed(index)} {}
+        [[nodiscard]] std::uint32_t index() const {
+            if constexpr (std::is_same_v<T, float>)
+                return std::bit_cast<std::uint32_t>(at[3]);
+            else
+                return static_cast<std::uint32_t>(static_cast<double>(at[3]));
+        }
+
+    private:
+        [[nodiscard]] static T packed(std::uint32_t index) {
+            if constexpr (std::is_same_v<T, float>)
+                return std::bit_cast<float>(index);
+            else
+                return T(index);
+        }
     };
 
     static constexpr std::size_t coarse_size = 16384;
@@ -106,13 +125,16 @@ private:
     }
 
     [[nodiscard]] Box<T> bounds(std::size_t begin, std::size_t end) const {
-        Box<T> box{points_[begin].at, points_[begin].at};
+        std::array<T, 4> low = points_[begin].at, high = low; // the fourth of no meaning
+        const Point* const points = points_.data();
         for (std::size_t i = begin + 1; i < end; ++i)
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box.low[axis] = (std::min)(box.low[axis], points_[i].at[axis]);
-                box.high[axis] = (std::max)(box.high[axis], points_[i].at[axis]);
+#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+            for (std::size_t axis = 0; axis < 4; ++axis) {
+                const T x = points[i].at[axis];
+                low[axis] = x < low[axis] ? x : low[axis];
+                high[axis] = high[axis] < x ? x : high[axis];
             }
-        return box;
+        return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
     }
 
     /// Puts those of the lower half first, across the longest side; returns where the others begin. Many are parted in the
@@ -154,16 +176,18 @@ private:
 
     /// Puts the points below a border first; returns where the others begin.
     [[nodiscard]] std::size_t partition(std::size_t axis, std::size_t begin, std::size_t end, T border) {
-        above_.resize(points_.size());
+        Point* const points = points_.data();
+        above_.resize(points_.size(), points[begin]);
+        Point* const others = above_.data();
         std::size_t below = begin, above = 0;
         for (std::size_t i = begin; i < end; ++i) {
-            const Point point = points_[i];
+            const Point point = points[i];
             const bool is_below = point.at[axis] < border;
-            points_[below] = above_[above] = point;
+            points[below] = others[above] = point;
             below += std::size_t(is_below);
             above += std::size_t(!is_below);
         }
-        std::copy_n(above_.begin(), above, points_.begin() + std::ptrdiff_t(below));
+        std::copy_n(others, above, points + below);
         return below;
     }
 
@@ -172,7 +196,7 @@ private:
         leaves.push_back({std::uint32_t(first), std::uint32_t(size)});
         index.resize(first + filled);
         for (std::size_t i = 0; i < filled; ++i)
-            index[first + i] = points_[begin + (std::min)(i, size - 1)].index;
+            index[first + i] = points_[begin + (std::min)(i, size - 1)].index();
         for (std::size_t axis = 0; axis < 3; ++axis) {
             coordinates[axis].resize(first + filled);
             for (std::size_t i = 0; i < filled; ++i)

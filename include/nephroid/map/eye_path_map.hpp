@@ -15,8 +15,10 @@ namespace nephroid {
 template <Scalar T>
 struct EyePathLeaf {
     std::array<T, 3> middle, half; ///< of its box, relative to the tree's origin; half its extents
-    Box<T> normals; ///< the components of its vertices' normals: one test for a whole leaf that faces a photon
-    T spacing;      ///< of neighbouring vertices, world units: one pixel's footprint on the surface; 0 if unknown
+    std::array<T, 3>
+        normal; ///< in the middle of its vertices' normals, none of which is further from it than `spread`:
+    T spread;   ///< one test for a whole leaf that faces a photon
+    T spacing;  ///< of neighbouring vertices, world units: one pixel's footprint on the surface; 0 if unknown
 };
 
 /// Eye path vertices (hits of the camera's paths on diffuse surfaces) in a kd-tree, read from the user's own array
@@ -90,11 +92,16 @@ private:
 
     /// Leaves come in their own order, as the nodes do.
     void append_leaf(const TreeLeaf& leaf, const Box<T>& box) {
-        leaves_.push_back({{}, {}, normal_bounds(leaf), leaf_spacing(leaf)});
+        const Box<T> normals = normal_bounds(leaf);
+        EyePathLeaf<T>& added = leaves_.emplace_back();
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            leaves_.back().middle[axis] = T(0.5) * box.low[axis] + T(0.5) * box.high[axis];
-            leaves_.back().half[axis] = T(0.5) * box.high[axis] - T(0.5) * box.low[axis];
+            added.middle[axis] = T(0.5) * box.low[axis] + T(0.5) * box.high[axis];
+            added.half[axis] = T(0.5) * box.high[axis] - T(0.5) * box.low[axis];
+            added.normal[axis] = T(0.5) * normals.low[axis] + T(0.5) * normals.high[axis];
+            added.spread = added.spread + square(T(0.5) * normals.high[axis] - T(0.5) * normals.low[axis]);
         }
+        added.spread = sqrt(added.spread);
+        added.spacing = leaf_spacing(leaf);
     }
 
     [[nodiscard]] Box<T> normal_bounds(const TreeLeaf& leaf) const {

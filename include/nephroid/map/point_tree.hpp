@@ -7,6 +7,7 @@
 #pragma once
 
 #include "nephroid/map/build_tree.hpp"
+#include "nephroid/map/nearest_points.hpp"
 #include "nephroid/map/tree_node.hpp"
 #include "nephroid/map/wide_tree.hpp"
 #include "nephroid/transport/executor.hpp"
@@ -26,71 +27,6 @@
 #include <vector>
 
 namespace nephroid {
-
-/// A point found by `PointTree::nearest`.
-template <Scalar T>
-struct Neighbour {
-    T distance2;        ///< to the place asked for, world units squared
-    std::uint32_t slot; ///< in the tree's leaf order
-};
-
-/// Every point counts.
-struct AcceptAll {
-    [[nodiscard]] constexpr bool operator()(std::size_t) const { return true; }
-};
-
-namespace detail {
-/// The nearest of the points offered, as many as there is room for: a heap once there is no more room, whose first
-/// element is the farthest and the next to go.
-template <Scalar T>
-class NearestHeap {
-public:
-    NearestHeap(std::span<Neighbour<T>> found, T limit2)
-        : found_(found), limit2_(limit2), unlimited_(!isfinite(limit2)) {}
-
-    [[nodiscard]] std::size_t size() const { return size_; }
-    /// Whether a point at this distance is among the nearest so far.
-    [[nodiscard]] bool wants(T distance2) const { return bool(int(distance2 < limit2_) | int(unlimited_)); }
-
-    /// @param neighbour  wanted
-    void take(const Neighbour<T>& neighbour) {
-        if (size_ == found_.size()) {
-            replace_farthest(neighbour);
-        } else {
-            found_[size_++] = neighbour;
-            if (size_ < found_.size())
-                return;
-            std::make_heap(found_.begin(), found_.end(),
-                           [](const Neighbour<T>& a, const Neighbour<T>& b) { return a.distance2 < b.distance2; });
-            unlimited_ = false;
-        }
-        limit2_ = found_.front().distance2;
-    }
-
-private:
-    /// Puts a neighbour in the farthest one's place, and down to where it belongs.
-    void replace_farthest(const Neighbour<T>& neighbour) {
-        Neighbour<T>* const heap = found_.data();
-        const std::size_t size = found_.size();
-        const T distance2 = neighbour.distance2;
-        std::size_t hole = 0;
-        for (std::size_t child = 1; child < size; child = 2 * hole + 1) {
-            if (child + 1 < size)
-                child += std::size_t(heap[child].distance2 < heap[child + 1].distance2); // without a branch to guess
-            if (!(distance2 < heap[child].distance2))
-                break;
-            heap[hole] = heap[child];
-            hole = child;
-        }
-        heap[hole] = neighbour;
-    }
-
-    std::span<Neighbour<T>> found_;
-    std::size_t size_ = 0;
-    T limit2_;
-    bool unlimited_; ///< squared distances may be infinite, where positions span all of a scalar's range
-};
-} // namespace detail
 
 template <Vector3 V>
 class PointTree {
@@ -186,25 +122,26 @@ public:
         const T* const py = y() + slot;
         const T* const pz = z() + slot;
         const T cx = place[0], cy = place[1], cz = place[2];
+#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
         for (std::size_t i = 0; i < lanes; ++i)
             distance2[i] = square(px[i] - cx) + square(py[i] - cy) + square(pz[i] - cz);
     }
 
-    /// The points nearest to a place (relative to the origin), in no particular order.
+    /// The points nearest to a place (relative to the origin), in no particular order. None to a place that is no number.
     ///
     /// @param found   room for as many as are wanted
     /// @param limit2  only points nearer than the root of this count
-    /// @param accept  accept(slot): whether a point counts at all; asked only of points that lie near enough
-    /// @return  how many there are: found.size(), or all that count if there are fewer. If found.size(), they are a
-    ///          heap, whose first element is the farthest.
+    /// @param accept  accept(slot): whether a point counts at all; asked of points that lie near enough, and of their
+    ///                neighbours in the leaf order, so that it can be vectorised
+    /// @return  how many there are: found.size(), or all that count if there are fewer
     template <class Accept = AcceptAll>
     std::size_t nearest(const V& relative_position, std::span<Neighbour<T>> found,
                         T limit2 = std::numeric_limits<T>::infinity(), const Accept& accept = {}) const {
         using t = vector_traits<V>;
-        if (empty() || found.empty())
-            return 0;
-        detail::NearestHeap<T> heap(found, limit2);
         const std::array<T, 3> p = {t::x(relative_position), t::y(relative_position), t::z(relative_position)};
+        if (empty() || found.empty() || !(p[0] == p[0] && p[1] == p[1] && p[2] == p[2]))
+            return 0;
+        detail::NearestPoints<T> nearest(found.size(), limit2, lanes);
         // The nearer child first; the other one waits here. A tree too deep for that (points clustered over hundreds of
         // orders of two) has the rest of a branch walked in the nodes' own order, which needs no room.
         struct Waiting {
@@ -216,11 +153,11 @@ public:
         std::size_t top = 0;
         T distance2 = distance2_to(nodes_.front(), p);
         for (std::uint32_t node = 0;;) {
-            if (heap.wants(distance2)) {
+            if (nearest.wants(distance2)) {
                 if (nodes_[node].leaf != no_leaf) {
-                    take_leaf(leaves_[nodes_[node].leaf], p, heap, accept);
+                    take_leaf(leaves_[nodes_[node].leaf], p, nearest, accept);
                 } else if (top == most_waiting) {
-                    take_subtree(node, p, heap, accept);
+                    take_subtree(node, p, nearest, accept);
                 } else {
                     const std::uint32_t first = node + 1, second = nodes_[first].skip;
                     const T to_first = distance2_to(nodes_[first], p), to_second = distance2_to(nodes_[second], p);
@@ -232,53 +169,44 @@ public:
                 }
             }
             if (top == 0)
-                return heap.size();
+                break;
             node = waiting[--top].node;
             distance2 = waiting[top].distance2;
         }
+        return nearest.put(found);
     }
 
 private:
     [[nodiscard]] static T distance2_to(const TreeNode<T>& node, const std::array<T, 3>& p) {
-        T distance2(0);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            distance2 =
-                distance2 + square((std::max)({T(0), node.box.low[axis] - p[axis], p[axis] - node.box.high[axis]}));
-        return distance2;
+        const auto larger = [](const T& a, const T& b) { return a > b ? a : b; };
+        const auto beside = [&](std::size_t axis) {
+            return larger(larger(node.box.low[axis] - p[axis], p[axis] - node.box.high[axis]), T(0));
+        };
+        return square(beside(0)) + square(beside(1)) + square(beside(2));
     }
 
     template <class Accept>
-    void take_leaf(const TreeLeaf& leaf, const std::array<T, 3>& p, detail::NearestHeap<T>& heap,
+    void take_leaf(const TreeLeaf& leaf, const std::array<T, 3>& p, detail::NearestPoints<T>& nearest,
                    const Accept& accept) const {
-        // First without a branch, as which points are wanted is anybody's guess; the few that are then one by one, before
-        // the next lanes are looked at, of which fewer are wanted for it.
-        std::array<Neighbour<T>, lanes> wanted;
         for (std::uint32_t first = 0; first < leaf.size; first += lanes) {
             std::array<T, lanes> distance2;
             distances2(leaf.first + first, p, distance2);
             const std::size_t size = (std::min)(lanes, std::size_t(leaf.size - first));
-            std::size_t count = 0;
-            for (std::size_t i = 0; i < size; ++i) {
-                wanted[count] = {distance2[i], std::uint32_t(leaf.first + first + i)};
-                count += std::size_t(heap.wants(distance2[i]));
-            }
-            for (std::size_t i = 0; i < count; ++i)
-                if (heap.wants(wanted[i].distance2) && accept(std::size_t(wanted[i].slot)))
-                    heap.take(wanted[i]);
+            nearest.offer(distance2, size, leaf.first + first, accept);
         }
     }
 
     template <class Accept>
-    void take_subtree(std::uint32_t root, const std::array<T, 3>& p, detail::NearestHeap<T>& heap,
+    void take_subtree(std::uint32_t root, const std::array<T, 3>& p, detail::NearestPoints<T>& nearest,
                       const Accept& accept) const {
         for (std::uint32_t i = root; i < nodes_[root].skip;) {
             const TreeNode<T>& node = nodes_[i];
-            if (!heap.wants(distance2_to(node, p))) {
+            if (!nearest.wants(distance2_to(node, p))) {
                 i = node.skip;
                 continue;
             }
             if (node.leaf != no_leaf)
-                take_leaf(leaves_[node.leaf], p, heap, accept);
+                take_leaf(leaves_[node.leaf], p, nearest, accept);
             ++i;
         }
     }

@@ -2,11 +2,12 @@
 /// @file  How far apart neighbouring points of a surface's sampling are.
 #pragma once
 
-#include "nephroid/vector/scalar.hpp"
+#include "nephroid/map/smallest.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -19,47 +20,105 @@ template <Scalar T>
 struct FewPoints {
     /// Those in the same place count once. Takes time in the square of their number.
     FewPoints(std::span<const T> px, std::span<const T> py, std::span<const T> pz)
-        : room(4 * px.size()), x(room.data()), y(x + px.size()), z(y + px.size()), distance2(z + px.size()) {
-        for (std::size_t i = 0; i < px.size(); ++i) {
-            x[size] = px[i], y[size] = py[i], z[size] = pz[i];
-            int met = 0;
-            for (std::size_t j = 0; j < size; ++j)
-                met |= int(x[j] == px[i]) & int(y[j] == py[i]) & int(z[j] == pz[i]);
-            size += std::size_t(met == 0);
+        : room(4 * px.size()), x(room.data()), y(x + px.size()), z(y + px.size()), distance2(z + px.size()),
+          size(px.size()) {
+        for (std::size_t axis = 0; const std::span<const T> coordinate : {px, py, pz}) {
+            std::copy(coordinate.begin(), coordinate.end(), room.data() + size * axis);
+            middle[axis++] = std::accumulate(coordinate.begin(), coordinate.end(), T(0)) / T(size);
+        }
+        measure(middle[0], middle[1], middle[2]);
+        if (some_equally_far()) {
+            leave_copies_out();
+            measure(middle[0], middle[1], middle[2]);
         }
     }
 
     FewPoints(const FewPoints&) = delete; // points into its own room
     FewPoints& operator=(const FewPoints&) = delete;
 
-    /// Squared distances of all points to a place; good until the next call.
-    [[nodiscard]] std::span<T> distances2(T px, T py, T pz) {
+    /// Takes the squared distances of all points to a place.
+    void measure(T px, T py, T pz) {
         for (std::size_t i = 0; i < size; ++i)
             distance2[i] = square(x[i] - px) + square(y[i] - py) + square(z[i] - pz);
-        return {distance2, size};
+    }
+
+    /// The nearest by the distances taken last, as many as there is room for; at most `size`.
+    void nearest(std::span<std::size_t> found) const {
+        T high(0);
+        for (std::size_t i = 0; i < size; ++i)
+            high = distance2[i] > high ? distance2[i] : high;
+        auto [limit, at_limit] = limit_of_smallest<T>({distance2, size}, found.size(), 0, high);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            const bool is_at_limit = at_limit > 0 && distance2[i] == limit;
+            at_limit -= std::size_t(is_at_limit);
+            if (is_at_limit || distance2[i] < limit)
+                found[count++] = i;
+        }
+    }
+
+    /// For each of N points the sum of the squared distances to those that are nearest to it, itself among them.
+    ///
+    /// @param wanted  how many, at most `most`
+    template <std::size_t most, std::size_t N>
+    [[nodiscard]] std::array<T, N> sums_of_nearest(const std::array<std::size_t, N>& centres,
+                                                   std::size_t wanted) const {
+        std::array<T, N> cx, cy, cz;
+        for (std::size_t k = 0; k < N; ++k)
+            cx[k] = x[centres[k]], cy[k] = y[centres[k]], cz[k] = z[centres[k]];
+        // Every point sinks into the N ascending lists at once, by exchanges without a branch.
+        std::array<std::array<T, N>, most> lists;
+        for (auto& places : lists)
+            places.fill(std::numeric_limits<T>::infinity());
+        for (std::size_t i = 0; i < size; ++i) {
+            std::array<T, N> sinking;
+#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+            for (std::size_t k = 0; k < N; ++k)
+                sinking[k] = square(x[i] - cx[k]) + square(y[i] - cy[k]) + square(z[i] - cz[k]);
+            for (std::size_t place = 0; place < wanted; ++place) {
+                const std::array<T, N> own = sinking, other = lists[place];
+#pragma GCC unroll 1
+                for (std::size_t k = 0; k < N; ++k)
+                    lists[place][k] = own[k] < other[k] ? own[k] : other[k];
+#pragma GCC unroll 1
+                for (std::size_t k = 0; k < N; ++k)
+                    sinking[k] = own[k] < other[k] ? other[k] : own[k];
+            }
+        }
+        std::array<T, N> sums{};
+        for (std::size_t place = 0; place < wanted; ++place)
+            for (std::size_t k = 0; k < N; ++k)
+                sums[k] = sums[k] + lists[place][k];
+        return sums;
     }
 
     std::vector<T> room;
     T *x, *y, *z, *distance2;
-    std::size_t size = 0;
-};
+    std::size_t size;
+    std::array<T, 3> middle;
 
-/// Where the smallest `count` of the values are, in their order; count <= N.
-template <std::size_t N, Scalar T>
-[[nodiscard]] std::array<std::size_t, N> smallest(std::span<const T> values, std::size_t count) {
-    std::array<std::size_t, N> found{};
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (size == count && !(values[i] < values[found[size - 1]]))
-            continue;
-        size += std::size_t(size < count);
-        std::size_t place = size - 1;
-        for (; place > 0 && values[i] < values[found[place - 1]]; --place)
-            found[place] = found[place - 1];
-        found[place] = i;
+private:
+    /// Points in the same place are equally far from any; others hardly ever.
+    [[nodiscard]] bool some_equally_far() const {
+        int met = 0;
+        for (std::size_t i = 1; i < size; ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                met |= int(distance2[j] == distance2[i]);
+        return met != 0;
     }
-    return found;
-}
+
+    void leave_copies_out() {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            int met = 0;
+            for (std::size_t j = 0; j < kept; ++j)
+                met |= int(x[j] == x[i]) & int(y[j] == y[i]) & int(z[j] == z[i]);
+            x[kept] = x[i], y[kept] = y[i], z[kept] = z[i];
+            kept += std::size_t(met == 0);
+        }
+        size = kept;
+    }
+};
 } // namespace detail
 
 /// The spacing p of a small cloud of points that sample a surface, such that a square lattice of side p gives p:
@@ -83,18 +142,11 @@ template <Scalar T>
     // The squared distances of the first n lattice neighbours add up to n p² for n <= 4 and to (2 n − 4) p² beyond.
     const T lattice = neighbours <= 4 ? T(neighbours) : T(2 * neighbours - 4);
 
-    std::array<T, 3> middle{T(0), T(0), T(0)};
-    for (std::size_t axis = 0; const std::span<const T> coordinate : {x, y, z})
-        middle[axis++] = std::accumulate(coordinate.begin(), coordinate.end(), T(0)) / T(coordinate.size());
-    std::array<T, most_probes> spacing2{};
-    const auto centres = detail::smallest<most_probes, T>(points.distances2(middle[0], middle[1], middle[2]), probes);
-    for (std::size_t probe = 0; probe < probes; ++probe) {
-        const std::size_t i = centres[probe];
-        const std::span<T> distance2 = points.distances2(points.x[i], points.y[i], points.z[i]);
-        const auto last = distance2.begin() + std::ptrdiff_t(neighbours);
-        std::nth_element(distance2.begin(), last, distance2.end()); // its own, 0, is among them
-        spacing2[probe] = std::accumulate(distance2.begin(), last + 1, T(0)) / lattice;
-    }
+    std::array<std::size_t, most_probes> centres{};
+    points.nearest(std::span(centres).first(probes));
+    std::array<T, most_probes> spacing2 = points.template sums_of_nearest<most_neighbours + 1>(centres, neighbours + 1);
+    for (T& sum : spacing2)
+        sum = sum / lattice;
     std::sort(spacing2.begin(), spacing2.begin() + std::ptrdiff_t(probes));
     return sqrt(T(0.5) * (spacing2[(probes - 1) / 2] + spacing2[probes / 2]));
 }

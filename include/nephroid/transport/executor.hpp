@@ -35,6 +35,9 @@ concept Executor = requires(E executor, std::size_t count, void (*task)(std::siz
 template <class E>
 concept ExecutorArgument = Executor<std::remove_reference_t<E>&>;
 
+/// An executor whose type does not matter: what is given one is compiled once.
+using TaskRunner = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
+
 /// What an executor is called for.
 enum class Phase { trace, fit, splat };
 
@@ -44,6 +47,28 @@ template <class E>
 void announce(E& executor, Phase phase) {
     if constexpr (requires { executor.begin(phase); })
         executor.begin(phase);
+}
+
+/// The executor must outlive what is returned.
+template <Executor E>
+[[nodiscard]] TaskRunner run_by(E& executor) {
+    return [&executor](std::size_t count, const std::function<void(std::size_t)>& task) { executor(count, task); };
+}
+
+/// Calls work(i) once for each i in 0 … count − 1, where a single one is too little for a task of its own.
+///
+/// @param per_task  how many neighbours make one, > 0
+template <class E, class Work>
+void for_each_index(E& executor, std::size_t count, std::size_t per_task, const Work& work) {
+    const auto run = [&](std::size_t task) {
+        const std::size_t end = (std::min)(count, (task + 1) * per_task);
+        for (std::size_t i = task * per_task; i < end; ++i)
+            work(i);
+    };
+    if (count <= per_task)
+        run(0); // wakes nobody
+    else
+        executor((count + per_task - 1) / per_task, run);
 }
 } // namespace detail
 

@@ -1,30 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/estimate/second_order/area_border.hpp"
 
-#include "nephroid/emission/sequence/halton.hpp"
+#include "estimate/second_order/area_maps.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 using namespace nephroid;
-
-namespace {
-
-[[nodiscard]] std::vector<AreaSample> samples(std::size_t count) {
-    const HaltonSequence sequence(1);
-    std::vector<AreaSample> result(count);
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::uint32_t axis = 0; axis < 4; ++axis)
-            result[i][axis] = sequence.sample<double>(i, axis);
-    return result;
-}
-
-} // namespace
+using tests::area_samples;
 
 // 6^4 cells of 16 photons, 1296 of them about a cell. Means and shares of so many vary by 1.5/sqrt(1296/4) at most: 0.08.
 TEST_CASE("area border: a plane across the domain is found where it lies") {
-    const auto all = samples(6 * 6 * 6 * 6 * 16);
+    const auto all = area_samples<HaltonSequence>(6 * 6 * 6 * 6 * 16);
     const AreaCells cells(all, {6, 6, 6, 6});
     const std::size_t cell = cells.cell_at({2, 3, 2, 3});
     for (const double ahead : {-0.5, 0.0, 0.5, 1.0}) {
@@ -43,7 +31,7 @@ TEST_CASE("area border: a plane across the domain is found where it lies") {
 }
 
 TEST_CASE("area border: the domain ends along the numbers that are split") {
-    const auto all = samples(1 * 2 * 16 * 8 * 16);
+    const auto all = area_samples<HaltonSequence>(1 * 2 * 16 * 8 * 16);
     const AreaCells cells(all, {1, 2, 16, 8});
     const auto everywhere = [](std::uint32_t) { return true; };
     CHECK(!border_about(cells, cells.cell_at({0, 0, 5, 4}), all, everywhere));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/estimate/second_order/area_cells.hpp"
 
+#include "estimate/second_order/area_maps.hpp"
+
 #include "nephroid/emission/sequence/random.hpp"
 
 #include <doctest/doctest.h>
@@ -9,22 +11,10 @@
 #include <limits>
 
 using namespace nephroid;
-
-namespace {
-
-[[nodiscard]] std::vector<AreaSample> samples(std::size_t count) {
-    const RandomSequence sequence(1);
-    std::vector<AreaSample> result(count);
-    for (std::size_t i = 0; i < count; ++i)
-        for (std::uint32_t axis = 0; axis < 4; ++axis)
-            result[i][axis] = sequence.sample<double>(i, axis);
-    return result;
-}
-
-} // namespace
+using tests::area_samples;
 
 TEST_CASE("area cells: each photon is in the cell that its sample says") {
-    const auto all = samples(3000);
+    const auto all = area_samples<RandomSequence>(3000);
     const AreaCells cells(all, {3, 1, 4, 5});
     REQUIRE(cells.size() == 60);
     std::vector<int> met(all.size());
@@ -63,7 +53,7 @@ TEST_CASE("area cells: nodes interpolate what is linear") {
     const AreaCells cells({}, {4, 1, 5, 2});
     const AreaSample slope{2, 0, -3, 0.5};
     const auto value = [&](const AreaSample& at) { return 1 + slope[0] * at[0] + slope[2] * at[2] + slope[3] * at[3]; };
-    for (const AreaSample& at : samples(200)) {
+    for (const AreaSample& at : area_samples<RandomSequence>(200)) {
         double sum = 0, weights = 0;
         AreaSample slopes{};
         const AreaSample inside{0.125 + 0.75 * at[0], at[1], 0.1 + 0.8 * at[2], 0.25 + 0.5 * at[3]};

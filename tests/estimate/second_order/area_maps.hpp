@@ -14,6 +14,17 @@
 
 namespace nephroid::tests {
 
+/// The first samples of a sequence.
+template <class Sequence>
+[[nodiscard]] std::vector<AreaSample> area_samples(std::size_t count) {
+    const Sequence sequence(1);
+    std::vector<AreaSample> result(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::uint32_t axis = 0; axis < 4; ++axis)
+            result[i][axis] = sequence.template sample<double>(i, axis);
+    return result;
+}
+
 using AreaPhoton = TracedPhoton<glm::dvec3, double, 2>;
 
 /// Where a photon lands, and how that changes by place (first two) and direction (last two).
@@ -60,11 +71,9 @@ struct AreaLamp {
 
     template <class Map>
     [[nodiscard]] std::vector<AreaPhoton> photons(const Map& map, std::size_t count) const {
-        const HaltonSequence sequence(1);
         std::vector<AreaPhoton> result;
-        for (std::size_t i = 0; i < count; ++i)
-            result.push_back(photon(map, {sequence.sample<double>(i, 0), sequence.sample<double>(i, 1),
-                                          sequence.sample<double>(i, 2), sequence.sample<double>(i, 3)}));
+        for (const AreaSample& sample : area_samples<HaltonSequence>(count))
+            result.push_back(photon(map, sample));
         return result;
     }
 };

@@ -6,12 +6,26 @@
 #include "support/space.hpp"
 
 #include "nephroid/emission/photon.hpp"
+#include "nephroid/emission/spread.hpp"
+#include "nephroid/emission/sequence/halton.hpp"
+#include "nephroid/emission/sequence/sequence.hpp"
 #include "nephroid/estimate/second_order/path_derivatives.hpp"
 
 #include <array>
 #include <cmath>
 
 namespace nephroid::tests {
+
+/// Calls visit(photon, its sampler after emission) for the first of 1000 photons of a light.
+template <class L, class Visit>
+void for_photons(const L& light, const Visit& visit) {
+    const HaltonSequence sequence(1);
+    for (std::uint64_t i = 0; i < 8; ++i) {
+        Sampler<HaltonSequence> sampler(sequence, i);
+        const auto photon = light.emit(sampler, Spread<double>{1000, 1});
+        visit(photon, sampler);
+    }
+}
 
 /// A ray in wide precision.
 struct WideRay {

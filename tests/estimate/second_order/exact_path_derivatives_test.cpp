@@ -18,6 +18,7 @@
 #include <vector>
 
 using namespace nephroid;
+using tests::for_photons;
 using tests::Neighbours;
 using tests::relative_difference;
 using tests::Space;
@@ -58,17 +59,6 @@ template <class T>
     const Space out = tests::on_sphere(in, inside, one, true);
     const Space ahead = tests::bent(inside, Wide(-1) * out.unit(), index);
     return tests::on_plane(out + center, ahead, {Wide(0), Wide(0), Wide(0)}, up);
-}
-
-/// Calls visit(photon, its sampler after emission) for a few photons of a light.
-template <class L, class Visit>
-void for_photons(const L& light, const Visit& visit) {
-    const HaltonSequence sequence(1);
-    for (std::uint64_t i = 0; i < 8; ++i) {
-        Sampler<HaltonSequence> sampler(sequence, i);
-        const auto photon = light.emit(sampler, Spread<double>{photons, 1});
-        visit(photon, sampler);
-    }
 }
 
 template <class T, class P, class S>

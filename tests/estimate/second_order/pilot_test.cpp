@@ -24,33 +24,15 @@
 using namespace nephroid;
 using tests::check_balance;
 using tests::FirstOrderPolicies;
+using tests::Floor;
+using tests::floor_of;
 using tests::GlassBall;
+using tests::map_of;
 using tests::Sheet;
 using tests::SheetScene;
 using tests::Vec;
 
 namespace {
-
-template <class V>
-using Floor = std::vector<tests::FloorVertex<V>>;
-
-/// side × side vertices over the caustic that a ball of glass above the origin makes.
-template <class V>
-[[nodiscard]] Floor<V> floor_of(int side, double reach = 0.8) {
-    using T = scalar_t<V>;
-    Floor<V> vertices;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            vertices.push_back(
-                {make_vector<V>(T(reach * (2 * (x + 0.5) / side - 1)), T(reach * (2 * (y + 0.5) / side - 1)), T(0)),
-                 make_vector<V>(T(0), T(0), T(1))});
-    return vertices;
-}
-
-template <class V>
-[[nodiscard]] EyePathMap<V> map_of(const Floor<V>& vertices) {
-    return EyePathMap<V>(vertices, &tests::FloorVertex<V>::position, &tests::FloorVertex<V>::normal);
-}
 
 template <class V, class F = scalar_t<V>>
 [[nodiscard]] GlassBall<V, F> ball() {

@@ -21,6 +21,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
+    static constexpr std::uint32_t dimensions = 4;
     using Triangle = std::array<V, 3>;
 
     struct Options {

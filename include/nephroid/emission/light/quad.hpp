@@ -15,6 +15,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
+    static constexpr std::uint32_t dimensions = 4;
 
     struct Options {
         V corner;

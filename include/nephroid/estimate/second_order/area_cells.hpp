@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/emission_sample.hpp"
+#include "nephroid/estimate/second_order/cell_contents.hpp"
 
 #include <algorithm>
 #include <array>
@@ -29,17 +30,8 @@ public:
 
     /// @param samples  in the order of the photons
     /// @param counts   cells along each number, >= 1
-    AreaCells(std::span<const AreaSample> samples, const Place& counts) : counts_(counts) {
-        begin_.assign(size() + 1, 0);
-        for (const AreaSample& sample : samples)
-            ++begin_[cell_of(sample) + 1];
-        for (std::size_t cell = 0; cell < size(); ++cell)
-            begin_[cell + 1] += begin_[cell];
-        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-        photons_.resize(samples.size());
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            photons_[next[cell_of(samples[i])]++] = std::uint32_t(i);
-    }
+    AreaCells(std::span<const AreaSample> samples, const Place& counts)
+        : counts_(counts), contents_(size(), samples.size(), [&](std::size_t i) { return cell_of(samples[i]); }) {}
 
     /// So many cells along each number that each holds about `photons_per_cell` photons, in proportion to `need` where
     /// that makes one at least: a small light needs hardly any cells along its place.
@@ -71,9 +63,7 @@ public:
     [[nodiscard]] const Place& counts() const { return counts_; }
     /// Whether there are so many cells along a number that one in the middle has others around it.
     [[nodiscard]] bool is_fine(std::size_t axis) const { return counts_[axis] > 2; }
-    [[nodiscard]] std::span<const std::uint32_t> photons(std::size_t cell) const {
-        return {photons_.data() + begin_[cell], begin_[cell + 1] - begin_[cell]};
-    }
+    [[nodiscard]] std::span<const std::uint32_t> photons(std::size_t cell) const { return contents_[cell]; }
 
     [[nodiscard]] std::size_t cell_of(const AreaSample& sample) const {
         Place place;
@@ -155,7 +145,7 @@ public:
 
 private:
     Place counts_;
-    std::vector<std::uint32_t> begin_, photons_;
+    CellContents contents_; // last: made by what is above
 };
 
 } // namespace nephroid

@@ -26,14 +26,14 @@
 
 #include "nephroid/estimate/second_order/area_border.hpp"
 #include "nephroid/estimate/second_order/area_fit.hpp"
+#include "nephroid/estimate/second_order/area_photons.hpp"
 #include "nephroid/estimate/second_order/footprint_field.hpp"
+#include "nephroid/transport/executor.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace nephroid {
@@ -46,8 +46,7 @@ public:
     /// @param executor  runs the fits; the field does not depend on it
     template <class Photons, class E>
     AreaField(const Photons& photons, const FieldOptions& options, E& executor)
-        : AreaField(pointers_to(photons), options,
-                    [&executor](std::size_t count, const Task& task) { executor(count, task); }) {}
+        : AreaField(AreaPhotons(PathSamples(photons)), options, detail::run_by(executor)) {}
 
     /// Nothing where the photons say nothing: too few of them, or none that took the same path.
     [[nodiscard]] std::optional<FieldSample> at(const EmissionSample& drawn, const EmissionFrame& frame,
@@ -84,10 +83,6 @@ public:
     [[nodiscard]] const AreaCells& cells() const { return grid_; }
 
 private:
-    using Task = std::function<void(std::size_t)>;
-    using Runner = std::function<void(std::size_t, const Task&)>;
-    using Samples = std::vector<const PathSample*>;
-
     struct Cell {
         EmissionFrame frame;   ///< of the photon nearest to the middle, of those on the path that most of them took
         PathDerivatives map{}; ///< at the middle; derivatives along the frame's tangents
@@ -100,17 +95,9 @@ private:
         Plane2 border_direction{};
     };
 
-    AreaField(const Samples& photons, const FieldOptions& options, const Runner& run)
-        : options_(options), samples_(samples_of(photons)), grid_(samples_, counts_of(photons, samples_)),
-          cells_(grid_.size()) {
-        const auto for_each_cell = [&](const Task& work) {
-            constexpr std::size_t cells_per_task = 32;
-            run((cells_.size() + cells_per_task - 1) / cells_per_task, [&](std::size_t task) {
-                const std::size_t end = (std::min)(cells_.size(), (task + 1) * cells_per_task);
-                for (std::size_t cell = task * cells_per_task; cell < end; ++cell)
-                    work(cell);
-            });
-        };
+    AreaField(const AreaPhotons& photons, const FieldOptions& options, const TaskRunner& run)
+        : options_(options), grid_(photons.samples(), photons.cell_counts()), cells_(grid_.size()) {
+        const auto for_each_cell = [&](const auto& work) { detail::for_each_index(run, cells_.size(), 32, work); };
         for_each_cell([&](std::size_t cell) { choose_frame(cell, photons); });
         for_each_cell([&](std::size_t cell) { fit(cell, photons); });
         if (options_.smoothing) {
@@ -121,102 +108,23 @@ private:
             pass_borders_on();
             for_each_cell([&](std::size_t cell) { choose_shape(cell); });
         }
-        samples_ = {}; // no longer needed
     }
 
-    template <class Photons>
-    [[nodiscard]] static Samples pointers_to(const Photons& photons) {
-        Samples samples(photons.size());
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            samples[i] = &photons[i];
-        return samples;
-    }
-
-    [[nodiscard]] static std::vector<AreaSample> samples_of(const Samples& photons) {
-        std::vector<AreaSample> samples(photons.size());
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            samples[i] = area_sample(photons[i]->sample);
-        return samples;
-    }
-
-    /// Whether a photon tells of the map: what will be an invalid splat must not be its neighbours' end.
-    [[nodiscard]] static bool is_telling(const PathSample& photon) {
-        const auto& t = photon.tangents;
-        return photon.has_landed && photon.frame.is_of_area() && std::isfinite(inner(t[0], t[0]) + inner(t[1], t[1]));
-    }
-    [[nodiscard]] static bool is_on(const PathSample& photon, std::uint32_t signature) {
-        return photon.has_landed && photon.signature == signature;
-    }
-
-    /// The path that most of some photons took, if any of them tells of the map.
-    [[nodiscard]] static std::optional<std::uint32_t> commonest_path(const Samples& photons,
-                                                                     std::span<const std::uint32_t> among) {
-        std::size_t most = 0;
-        std::uint32_t signature = 0;
-        for (const std::uint32_t i : among) {
-            if (!is_telling(*photons[i]))
-                continue;
-            const std::uint32_t candidate = photons[i]->signature;
-            const auto same = std::size_t(std::count_if(
-                among.begin(), among.end(), [&](std::uint32_t j) { return is_on(*photons[j], candidate); }));
-            if (same > most || (same == most && candidate < signature)) {
-                most = same;
-                signature = candidate;
-            }
-        }
-        return most > 0 ? std::optional(signature) : std::nullopt;
-    }
-
-    /// Cells along each number as its change of the tangents deserves, which coarse cells tell.
-    [[nodiscard]] static AreaCells::Place counts_of(const Samples& photons, const std::vector<AreaSample>& samples) {
-        const AreaCells coarse(samples, AreaCells::counts_for(photons.size(), {1, 1, 1, 1}));
-        constexpr double least = 1e-3; // relative change over the domain: less is none
-        AreaSample need{};
-        double told = 0;
-        for (std::size_t cell = 0; cell < coarse.size(); ++cell) {
-            const auto signature = commonest_path(photons, coarse.photons(cell));
-            if (!signature)
-                continue;
-            LeastSquares<5, TangentPair> slopes;
-            std::size_t count = 0;
-            const EmissionFrame* frame = nullptr;
-            for (const std::uint32_t i : coarse.photons(cell)) {
-                const PathSample& photon = *photons[i];
-                if (!is_telling(photon) || !is_on(photon, *signature))
-                    continue;
-                if (frame == nullptr)
-                    frame = &photon.frame;
-                const AreaSample at = coarse.from_middle(cell, samples[i], false);
-                slopes.add({1, at[0], at[1], at[2], at[3]}, turned(photon.tangents, frame->turn_of(photon.frame)), 1);
-                ++count;
-            }
-            std::array<TangentPair, 5> x;
-            if (count < 8 || !slopes.solve(5, x) || !(norm2(x[0]) > 0))
-                continue;
-            for (std::size_t axis = 0; axis < 4; ++axis)
-                need[axis] += double(coarse.counts()[axis]) * std::sqrt(norm2(x[axis + 1]) / norm2(x[0]));
-            ++told;
-        }
-        for (double& n : need)
-            n = (std::max)(n, least * told);
-        return AreaCells::counts_for(photons.size(), need);
-    }
-
-    void choose_frame(std::size_t index, const Samples& photons) {
+    void choose_frame(std::size_t index, const AreaPhotons& photons) {
         Cell& cell = cells_[index];
-        const auto signature = commonest_path(photons, grid_.photons(index));
+        const auto signature = photons.commonest_path(grid_.photons(index));
         if (!signature)
             return;
         cell.signature = *signature;
         cell.has_frame = true;
         double nearest = std::numeric_limits<double>::infinity();
         for (const std::uint32_t i : grid_.photons(index)) {
-            if (!is_telling(*photons[i]) || !is_on(*photons[i], cell.signature))
+            if (!photons.tells_of(i, cell.signature))
                 continue;
-            const double distance2 = length2_of(grid_.from_middle(index, samples_[i], false));
+            const double distance2 = length2_of(grid_.from_middle(index, photons.samples()[i], false));
             if (distance2 < nearest) {
                 nearest = distance2;
-                cell.frame = photons[i]->frame;
+                cell.frame = photons[i].frame;
             }
         }
     }
@@ -226,7 +134,7 @@ private:
     }
 
     /// Fits the derivatives to the photons of this cell and those around it, weighted by a biweight about its middle.
-    void fit(std::size_t index, const Samples& photons) {
+    void fit(std::size_t index, const AreaPhotons& photons) {
         Cell& cell = cells_[index];
         if (!cell.has_frame)
             return;
@@ -236,15 +144,15 @@ private:
             if (other == grid_.size())
                 return;
             for (const std::uint32_t i : grid_.photons(other)) {
-                const double rest = 1 - length2_of(grid_.from_middle(index, samples_[i], true)) / square(reach);
-                if (!(rest > 0) || !is_telling(*photons[i]) || !is_on(*photons[i], cell.signature))
+                const double rest =
+                    1 - length2_of(grid_.from_middle(index, photons.samples()[i], true)) / square(reach);
+                if (!(rest > 0) || !photons.tells_of(i, cell.signature))
                     continue;
-                AreaSample away = samples_[i];
-                const AreaSample middle = grid_.from_middle(index, away, false);
+                AreaSample away = grid_.from_middle(index, photons.samples()[i], false);
                 for (std::size_t axis = 0; axis < 4; ++axis)
-                    away[axis] = middle[axis] / double(grid_.counts()[axis]);
-                fit.add(cell.frame.step_to(photons[i]->frame),
-                        turned(photons[i]->tangents, cell.frame.turn_of(photons[i]->frame)), away, rest * rest);
+                    away[axis] /= double(grid_.counts()[axis]);
+                fit.add(cell.frame.step_to(photons[i].frame),
+                        turned(photons[i].tangents, cell.frame.turn_of(photons[i].frame)), away, rest * rest);
             }
         });
         double rough = 0;
@@ -258,12 +166,12 @@ private:
         return a == b || (cells_[a].is_resolved && cells_[b].is_resolved && cells_[a].signature == cells_[b].signature);
     }
 
-    void find_border(std::size_t index, const Samples& photons) {
+    void find_border(std::size_t index, const AreaPhotons& photons) {
         Cell& cell = cells_[index];
         if (!cell.is_resolved)
             return;
-        cell.border =
-            border_about(grid_, index, samples_, [&](std::uint32_t i) { return is_on(*photons[i], cell.signature); });
+        cell.border = border_about(grid_, index, photons.samples(),
+                                   [&](std::uint32_t i) { return photons.is_on(i, cell.signature); });
         if (cell.border && !meet(cell, *cell.border))
             cell.border.reset();
     }
@@ -329,7 +237,6 @@ private:
     static constexpr double least_border_radius = 8;
 
     FieldOptions options_;
-    std::vector<AreaSample> samples_;
     AreaCells grid_;
     std::vector<Cell> cells_;
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/emission_sample.hpp"
+#include "nephroid/estimate/second_order/cell_contents.hpp"
 #include "nephroid/estimate/second_order/emission_frame.hpp"
 #include "nephroid/estimate/second_order/path_derivatives.hpp"
 #include "nephroid/transport/walk.hpp"
@@ -96,24 +97,14 @@ public:
         columns_ = std::size_t(std::lround(std::clamp(std::sqrt(cells * aspect), 1.0, most)));
         rows_ = std::size_t(std::lround(std::clamp(cells / double(columns_), 1.0, most)));
 
-        begin_.assign(size() + 1, 0);
-        for (const auto& sample : samples)
-            ++begin_[cell_of(sample) + 1];
-        for (std::size_t cell = 0; cell < size(); ++cell)
-            begin_[cell + 1] += begin_[cell];
-        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-        photons_.resize(samples.size());
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            photons_[next[cell_of(samples[i])]++] = std::uint32_t(i);
+        contents_ = CellContents(size(), samples.size(), [&](std::size_t i) { return cell_of(samples[i]); });
     }
 
     [[nodiscard]] std::size_t size() const { return columns_ * rows_; }
     [[nodiscard]] std::size_t columns() const { return columns_; }
     [[nodiscard]] std::size_t rows() const { return rows_; }
     [[nodiscard]] bool repeats() const { return repeats_; }
-    [[nodiscard]] std::span<const std::uint32_t> photons(std::size_t cell) const {
-        return {photons_.data() + begin_[cell], begin_[cell + 1] - begin_[cell]};
-    }
+    [[nodiscard]] std::span<const std::uint32_t> photons(std::size_t cell) const { return contents_[cell]; }
     [[nodiscard]] std::size_t cell_of(const std::array<double, 2>& sample) const {
         const auto index = [](double u, std::size_t n) { return (std::min)(n - 1, std::size_t(u * double(n))); };
         return index(sample[1], rows_) * columns_ + index(sample[0], columns_);
@@ -147,7 +138,7 @@ private:
 
     bool repeats_;
     std::size_t columns_ = 1, rows_ = 1;
-    std::vector<std::uint32_t> begin_, photons_;
+    CellContents contents_;
 };
 
 /// How displacements follow from steps between samples, δ = M Δ, fitted to photons about one of them.

@@ -8,15 +8,12 @@
 #pragma once
 
 #include "nephroid/estimate/second_order/emission_cells.hpp"
+#include "nephroid/transport/executor.hpp"
 
 #include <array>
-#include <functional>
 #include <limits>
 
 namespace nephroid {
-
-/// Runs task(0) to task(count − 1): an executor whose type does not matter.
-using TaskRunner = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
 
 /// The photons of a light that took one path.
 struct EmissionSheet {
@@ -35,14 +32,7 @@ public:
         const EmissionCells cells(photons.places(photons.size()), aspect_, repeats);
         const std::vector<std::uint32_t> kinds = sort_by_path(photons);
 
-        const auto for_each_cell = [&](const auto& work) {
-            constexpr std::size_t cells_per_task = 64;
-            run((cells.size() + cells_per_task - 1) / cells_per_task, [&](std::size_t task) {
-                const std::size_t end = (std::min)(cells.size(), (task + 1) * cells_per_task);
-                for (std::size_t cell = task * cells_per_task; cell < end; ++cell)
-                    work(cell);
-            });
-        };
+        const auto for_each_cell = [&](const auto& work) { detail::for_each_index(run, cells.size(), 64, work); };
         std::vector<Neighbours> neighbours(photons.size());
         std::vector<float> shares(photons.size(), 1);
         for_each_cell([&](std::size_t cell) { find_neighbours(cells, cell, photons, kinds, neighbours); });

@@ -14,8 +14,7 @@ public:
     /// @param executor  runs the fits; the field does not depend on it
     template <class Photons, class E>
     FootprintField(const Photons& photons, const FieldOptions& options, E& executor)
-        : FootprintField(PathSamples(photons), options,
-                         TaskRunner([&executor](std::size_t count, const auto& task) { executor(count, task); })) {}
+        : FootprintField(PathSamples(photons), options, detail::run_by(executor)) {}
 
     /// Nothing where the photons say nothing: too few of them took this path.
     [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame,

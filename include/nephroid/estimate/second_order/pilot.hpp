@@ -10,6 +10,7 @@
 #include "nephroid/transport/trail.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -29,6 +30,7 @@ template <class S, class L, class Sequence>
     Sampler<Sequence> sampler(sequence, index);
     RecordingSource<Sampler<Sequence>> recorder(sampler);
     const auto emitted = light.emit(recorder, spread);
+    assert(may_draw(emission_domains<L>, recorder.sample().dimensions)); // else the light's own `dimensions` are wrong
     PathSignature signature;
     const auto deposit = walk(scene, emitted, sampler, pass.limits, account, signature);
     return {recorder.sample(), EmissionFrame(emitted), signature.value(), deposit};
@@ -52,40 +54,37 @@ struct Pilot {
 template <class S, class L, class Sequence, class E>
 [[nodiscard]] Pilot<traced_photon_t<L>> trace_pilot(const S& scene, const L& light, const PhotonPass& pass,
                                                     const SecondOrder& policy, const Sequence& sequence, E& executor) {
-    constexpr std::size_t photons_per_task = 512;
     const auto count = std::size_t((std::min)(pass.total == 0 ? pass.count : pass.total, policy.pilot));
     Pilot<traced_photon_t<L>> pilot{pass.total == 0 ? pass.first : 0, std::vector<traced_photon_t<L>>(count),
                                     std::vector<Statistics>(count)};
     announce(executor, Phase::trace);
     CoherentOrder order;
     const std::span<const PlacedPhoton> sorted = order.sort(light, sequence, pilot.first, count, executor);
-    executor((count + photons_per_task - 1) / photons_per_task, [&](std::size_t task) {
-        const std::size_t from = task * photons_per_task;
-        for (const PlacedPhoton& photon : sorted.subspan(from, (std::min)(photons_per_task, count - from))) {
-            const std::size_t i = photon.number;
-            pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
-        }
+    for_each_index(executor, count, 512, [&](std::size_t place) {
+        const std::size_t i = sorted[place].number;
+        pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
     });
     return pilot;
 }
 
 /// What the pilot photons say of the footprints of the whole pass.
 ///
+/// @tparam domains       what the lights may draw
 /// @param largest_reach  of a footprint, world units: the map's diagonal
-template <Vector3 V, Flux F, std::size_t N, class Policies, class E>
-[[nodiscard]] SecondOrderFootprints<V> footprints_from(const Pilot<TracedPhoton<V, F, N>>& pilot,
-                                                       const PhotonPass& pass, const Policies& policies,
-                                                       double largest_reach, bool stratified, E& executor) {
+template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class Policies, class E>
+[[nodiscard]] SecondOrderFootprints<V, domains> footprints_from(const Pilot<TracedPhoton<V, F, N>>& pilot,
+                                                                const PhotonPass& pass, const Policies& policies,
+                                                                double largest_reach, bool stratified, E& executor) {
     using Kernel = std::remove_cvref_t<decltype(policies.kernel)>;
-    const typename SecondOrderFootprints<V>::Options options{.policy = policies.order,
-                                                             .smoothing = pass.smoothing,
-                                                             .stratified = stratified,
-                                                             .second_moment = double(Kernel::second_moment),
-                                                             .photons =
-                                                                 double(pass.total == 0 ? pass.count : pass.total),
-                                                             .largest_reach = largest_reach};
+    using Footprints = SecondOrderFootprints<V, domains>;
+    const typename Footprints::Options options{.policy = policies.order,
+                                               .smoothing = pass.smoothing,
+                                               .stratified = stratified,
+                                               .second_moment = double(Kernel::second_moment),
+                                               .photons = double(pass.total == 0 ? pass.count : pass.total),
+                                               .largest_reach = largest_reach};
     announce(executor, Phase::fit);
-    return SecondOrderFootprints<V>(std::span<const TracedPhoton<V, F, N>>(pilot.photons), options, executor);
+    return Footprints(std::span<const TracedPhoton<V, F, N>>(pilot.photons), options, executor);
 }
 
 } // namespace nephroid::detail

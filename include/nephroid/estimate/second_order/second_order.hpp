@@ -11,17 +11,21 @@
 /// number of samples are splatted as without it, with one smoothing for all (cross_validation.hpp).
 #pragma once
 
+#include "nephroid/emission/light.hpp"
 #include "nephroid/estimate/second_order/area_field.hpp"
 #include "nephroid/estimate/second_order/footprint_field.hpp"
 
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
 namespace nephroid {
 
 /// The photons of a pass, turned to footprints.
-template <Vector3 V>
+///
+/// @tparam domains  what its lights may draw: no more is compiled than these need
+template <Vector3 V, EmissionDomains domains = EmissionDomains{}>
 class SecondOrderFootprints {
 public:
     using T = scalar_t<V>;
@@ -66,16 +70,18 @@ public:
                                      .scale = 0.125 / options.second_moment,
                                      .photons = emitted,
                                      .bounds = bounds_for(options.policy.bounds, emitted)};
-            if (photons.origin.second == 2)
-                fields_.push_back({photons.origin, FootprintField(photons, field, executor)});
-            else
-                fields_.push_back({photons.origin, AreaField(photons, field, executor)});
+            if constexpr (domains.two)
+                if (photons.origin.second == 2)
+                    fields_.push_back({photons.origin, FootprintField(photons, field, executor)});
+            if constexpr (domains.four)
+                if (photons.origin.second == 4)
+                    fields_.push_back({photons.origin, AreaField(photons, field, executor)});
         }
     }
 
     /// Whether a light's samples say which of its photons are neighbours.
     [[nodiscard]] static bool has_cells(const EmissionSample& sample) {
-        return sample.dimensions == 2 || sample.dimensions == 4;
+        return (domains.two && sample.dimensions == 2) || (domains.four && sample.dimensions == 4);
     }
 
     /// What photons get that have no cells, where no smoothing is given; `default_smoothing` unless called.
@@ -159,10 +165,19 @@ private:
     using Origin = std::pair<std::uint32_t, std::uint32_t>;
     [[nodiscard]] static Origin origin_of(const EmissionSample& sample) { return {sample.light, sample.dimensions}; }
 
+    using OneField = std::conditional_t<domains.four, AreaField, FootprintField>;
     struct LightField {
         Origin origin;
-        std::variant<FootprintField, AreaField> field;
+        std::conditional_t<domains.two && domains.four, std::variant<FootprintField, AreaField>, std::variant<OneField>>
+            field;
     };
+
+    [[nodiscard]] static std::optional<FieldSample> sample_of(const FootprintField& field, const PathSample& photon) {
+        return field.at(photon.sample.at, photon.frame, photon.signature);
+    }
+    [[nodiscard]] static std::optional<FieldSample> sample_of(const AreaField& field, const PathSample& photon) {
+        return field.at(photon.sample, photon.frame, photon.signature);
+    }
 
     /// Nothing for lights that draw neither two nor four numbers, or of which there are too few photons.
     [[nodiscard]] std::optional<FieldSample> field_at(const PathSample& photon) const {
@@ -171,9 +186,7 @@ private:
                                             [](const LightField& a, const Origin& o) { return a.origin < o; });
         if (found == fields_.end() || found->origin != origin)
             return std::nullopt;
-        if (const auto* of_area = std::get_if<AreaField>(&found->field))
-            return of_area->at(photon.sample, photon.frame, photon.signature);
-        return std::get_if<FootprintField>(&found->field)->at(photon.sample.at, photon.frame, photon.signature);
+        return std::visit([&](const auto& field) { return sample_of(field, photon); }, found->field);
     }
 
     Options options_;

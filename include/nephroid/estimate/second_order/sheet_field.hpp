@@ -5,7 +5,6 @@
 #include "nephroid/estimate/second_order/emission_sheets.hpp"
 #include "nephroid/estimate/second_order/roughness.hpp"
 
-#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -50,17 +49,8 @@ public:
                 slots_[square] = std::uint32_t(cells_.size());
                 cells_.push_back({.square = square});
             }
-        const auto for_each_cell = [&](const std::function<void(Cell&)>& work) {
-            constexpr std::size_t cells_per_task = 32;
-            const auto work_on = [&](std::size_t task) {
-                const std::size_t end = (std::min)(cells_.size(), (task + 1) * cells_per_task);
-                for (std::size_t cell = task * cells_per_task; cell < end; ++cell)
-                    work(cells_[cell]);
-            };
-            if (cells_.size() <= cells_per_task)
-                work_on(0); // many sheets are small
-            else
-                run((cells_.size() + cells_per_task - 1) / cells_per_task, work_on);
+        const auto for_each_cell = [&](const auto& work) {
+            detail::for_each_index(run, cells_.size(), 32, [&](std::size_t i) { work(cells_[i]); });
         };
         for_each_cell([&](Cell& cell) {
             choose_frame(cell, photons);
