@@ -46,7 +46,7 @@ struct PlacedPhoton {
     std::uint32_t number; ///< in the batch, from 0
 };
 
-/// Sorts the photons of one batch after another, in parallel; keeps its memory, 16 bytes for each photon of the largest.
+/// Sorts the photons of one batch after another, in parallel; keeps its memory, 18 bytes for each photon of the largest.
 class CoherentOrder {
 public:
     /// @param light  as for `splat_caustics`; draws every photon's numbers here once more

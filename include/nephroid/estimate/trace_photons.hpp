@@ -61,7 +61,7 @@ template <class S, class L, SampleSequence Sequence = HaltonSequence, class E = 
     for (std::uint64_t done = 0; done < pass.count;) {
         const std::uint64_t end = done + (std::min)(photons_per_batch, pass.count - done);
         trace.statistics += batch.trace(light, sequence, pass.first, done, end, trace_one, executor);
-        const std::size_t kept = trace.deposits.size() + std::size_t(end - done);
+        const auto kept = std::size_t(trace.statistics[Fate::splatted].photons);
         if (kept > trace.deposits.capacity()) // as push_back would do, but in one step
             trace.deposits.reserve((std::max)(kept, 2 * trace.deposits.capacity()));
         for (std::uint64_t i = done; i < end; ++i)
