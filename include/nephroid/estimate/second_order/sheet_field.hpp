@@ -41,7 +41,7 @@ public:
                const FieldOptions& options, const TaskRunner& run)
         : options_(options), density_{options.stratified, sheet.share},
           grid_(places_of(all, sheet), sheets.aspect(), options.repeats,
-                EmissionCells::photons_per_cell * double(sheet.photons.size()) / (double(all.size()) * sheet.share)),
+                photons_per_cell(options, sheet) * double(sheet.photons.size()) / (double(all.size()) * sheet.share)),
           slots_(grid_.size(), nowhere) {
         PathSamples photons;
         for (const std::uint32_t i : sheet.photons)
@@ -110,11 +110,18 @@ private:
     static constexpr std::uint32_t nowhere = (std::numeric_limits<std::uint32_t>::max)();
     static constexpr double least_border_radius = 3;
 
+    /// Photons that keep apart determine derivatives by fewer, from smaller cells; what chance leaves of them does not.
+    [[nodiscard]] static double photons_per_cell(const FieldOptions& options, const EmissionSheet& sheet) {
+        static const double R=getenv("PCR")?atof(getenv("PCR")):16, H=getenv("PCH")?atof(getenv("PCH")):8;
+        return options.stratified && sheet.share == 1 ? H : R;
+    }
+
     /// A square of the grid with photons in it.
     struct Cell {
         std::size_t square;
         EmissionFrame frame{}; ///< of the photon nearest to the middle
         std::array<double, 2> frame_sample{};
+        double size2 = 0;      ///< of that photon's tangents
         PlaneMatrix metric{};  ///< steps between samples to displacements in the frame
         PathDerivatives map{}; ///< at the middle
         Symmetric2 log_q{}, shape{};
@@ -158,6 +165,8 @@ private:
                 nearest = inner(in_cells, in_cells);
                 cell.frame = photons[i].frame;
                 cell.frame_sample = photons[i].sample.at;
+                const auto& tangents = photons[i].tangents;
+                cell.size2 = inner(tangents[0], tangents[0]) + inner(tangents[1], tangents[1]);
             }
         }
         SampleMetric metric;
@@ -196,7 +205,10 @@ private:
                 const PlaneMatrix axes = photon.frame.axes_of(cell.frame);
                 const std::array<Space3, 2> by_axes{axes.first.x * tangents[0] + axes.first.y * tangents[1],
                                                     axes.second.x * tangents[0] + axes.second.y * tangents[1]};
-                fit.add(at, by_axes, rest * rest);
+                // By its own measure where that is larger than the middle's: beside a pole of the map a few photons would
+                // else decide for all.
+                const double size2 = inner(by_axes[0], by_axes[0]) + inner(by_axes[1], by_axes[1]);
+                fit.add(at, by_axes, rest * rest * (cell.size2 > 0 ? cell.size2 / (cell.size2 + size2) : 0.5));
                 if (&other == &cell)
                     here.push_back({{at.x, at.y, 0, 0}, by_axes, {}});
             }
