@@ -100,7 +100,7 @@ public:
             for (std::size_t i = 0; i < second.size(); ++i)
                 result.second[i] += node.weight * second[i];
         }
-        bound_by_domain(shape, *here, sample, here->frame.axes_of(frame), samples_by_place);
+        bound_by_domain(shape, sample, samples_by_place);
         result.shape = shape.value;
         result.divergence = {shape.along_u.xx + shape.along_v.xy, shape.along_u.xy + shape.along_v.yy};
         return result;
@@ -108,12 +108,10 @@ public:
 
 private:
     static constexpr std::uint32_t nowhere = (std::numeric_limits<std::uint32_t>::max)();
-    static constexpr double least_border_radius = 3;
 
     /// Photons that keep apart determine derivatives by fewer, from smaller cells; what chance leaves of them does not.
     [[nodiscard]] static double photons_per_cell(const FieldOptions& options, const EmissionSheet& sheet) {
-        static const double R=getenv("PCR")?atof(getenv("PCR")):16, H=getenv("PCH")?atof(getenv("PCH")):8;
-        return options.stratified && sheet.share == 1 ? H : R;
+        return options.stratified && sheet.share == 1 ? 10 : EmissionCells::photons_per_cell;
     }
 
     /// A square of the grid with photons in it.
@@ -338,19 +336,9 @@ private:
         double most, by_distance;
     };
 
-    /// @param outwards  unit, in the cell's frame
-    [[nodiscard]] Reach reach_to(double distance, Plane2 outwards, const Cell& cell) const {
-        // Where the map widens towards the border, what spills over it lands further out than one would think.
-        const auto& h = cell.map.second;
-        const Plane2 n = outwards;
-        const double widening = 0.5 * inner(n, detail::EmissionPullback(cell.map.first)(
-                                                   (n.x * n.x) * h[0] + ((2 * n.x * n.y) * h[1] + (n.y * n.y) * h[2])));
-        const double wider = std::clamp(1 + distance * widening, 1.0, 4.0), most = distance * wider;
-        const double unit_reach = std::sqrt(options_.scale);
-        if (!(most > least_border_radius))
-            return {unit_reach * least_border_radius, 0};
-        const bool is_clamped = wider == 1.0 || wider == 4.0;
-        return {unit_reach * most, unit_reach * (wider + (is_clamped ? 0 : distance * widening))};
+    [[nodiscard]] Reach reach_to(double distance) const {
+        const double unit_reach = std::sqrt(options_.scale), least = options_.bounds.least_radius;
+        return distance > least ? Reach{unit_reach * distance, unit_reach} : Reach{unit_reach * least, 0};
     }
 
     /// A cell's shape where a photon is, in the cell's frame: no wider than the sheet.
@@ -363,21 +351,21 @@ private:
             return shape;
         const Plane2 n = cell.border_direction;
         if (!(inner(n, n) > 0)) {
-            const double most = square(reach_to(cell.border_distance, n, cell).most);
+            const double most = square(reach_to(cell.border_distance).most);
             const Principal2 principal(shape.value);
             shape.value = principal.with((std::min)(principal.larger, most), (std::min)(principal.smaller, most));
             return shape;
         }
         const Plane2 away = cell.metric(grid_.step_between(grid_.middle(cell.square), sample));
-        const Reach reach = reach_to(cell.border_distance - inner(n, away), n, cell);
+        const Reach reach = reach_to(cell.border_distance - inner(n, away));
         shape.bound_along(n, reach.most,
                           {-reach.by_distance * inner(n, steps.first), -reach.by_distance * inner(n, steps.second)});
         return shape;
     }
 
     /// Bounds a photon's shape, in its own frame, by the borders of the light's domain.
-    void bound_by_domain(VaryingShape& shape, const Cell& cell, const std::array<double, 2>& sample,
-                         const PlaneMatrix& steps, const PlaneMatrix& samples_by_place) const {
+    void bound_by_domain(VaryingShape& shape, const std::array<double, 2>& sample,
+                         const PlaneMatrix& samples_by_place) const {
         if (grid_.repeats() || options_.smoothing)
             return;
         const std::array<Plane2, 2> slopes{{{samples_by_place.first.x, samples_by_place.second.x},
@@ -387,9 +375,7 @@ private:
             for (const bool upper : {false, true}) {
                 const double distance = (upper ? 1 - sample[axis] : sample[axis]) / slope;
                 const Plane2 n = ((upper ? 1 : -1) / slope) * slopes[axis];
-                if (!(square(distance) < inner(n, shape.value(n)) / options_.scale))
-                    continue; // it reaches further only where the map widens
-                const Reach reach = reach_to(distance, unit(steps(n)), cell);
+                const Reach reach = reach_to(distance);
                 shape.bound_along(n, reach.most, -reach.by_distance * n);
             }
         }
