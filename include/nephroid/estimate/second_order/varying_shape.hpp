@@ -3,6 +3,9 @@
 #pragma once
 
 #include "nephroid/vector/plane.hpp"
+#include "nephroid/vector/scalar.hpp"
+
+#include <cmath>
 
 namespace nephroid {
 
@@ -21,25 +24,27 @@ struct VaryingShape {
         return {congruent(axes, value), congruent(axes, along_u), congruent(axes, along_v)};
     }
 
-    /// Reduces the radius along a unit direction to `most` where it is larger, and leaves it across as it is.
+    /// Reduces the radius ρ along a unit direction, ρ² = n·S n, to less than `most`, and leaves it across as it is.
     ///
-    /// S − (1 − most²/ρ²) w wᵀ with w = S n / ρ, ρ² = n·S n, and what that becomes where S and `most` change.
+    /// ρ becomes (ρ⁻⁴ + most⁻⁴)^(−1/4): where the lesser of the two had a bend, the shift would have a step, and the
+    /// light an edge. A `most` of 2.9 ρ and more, which would shorten it by 0.4%, changes nothing.
     /// @param slope  of `most`, by u and v
     void bound_along(Plane2 n, double most, Plane2 slope) {
         const Plane2 s_n = value(n);
-        const double radius2 = inner(n, s_n);
-        if (!(radius2 > most * most))
+        const double radius2 = inner(n, s_n), most2 = square(most);
+        if (!(most2 < 8 * radius2))
             return;
-        const Symmetric2 cut = Symmetric2::outer(s_n); // ρ² w wᵀ
-        const double kept = most * most / radius2, by = (1 - kept) / radius2;
+        // S − (1 − kept)/ρ² · S n (S n)ᵀ, and what that becomes where S and `most` change.
+        const double sum4 = square(radius2) + square(most2), root = std::sqrt(sum4), kept = most2 / root;
+        const double by = (1 - kept) / radius2;
+        const Symmetric2 cut = Symmetric2::outer(s_n);
         const auto bound = [&](Symmetric2& along, double d_most) {
             const Plane2 d_s_n = along(n);
             const double d_radius2 = inner(n, d_s_n);
             const Symmetric2 d_cut{2 * s_n.x * d_s_n.x, s_n.x * d_s_n.y + s_n.y * d_s_n.x, 2 * s_n.y * d_s_n.y};
-            const double d_kept = (2 * most * d_most - kept * d_radius2) / radius2;
-            const double d_by = (-d_kept - by * d_radius2) / radius2;
+            const double d_kept = radius2 * (2 * most * d_most * radius2 - most2 * d_radius2) / (sum4 * root);
             along += -by * d_cut;
-            along += -d_by * cut;
+            along += ((d_kept + by * d_radius2) / radius2) * cut;
         };
         bound(along_u, slope.x);
         bound(along_v, slope.y);
