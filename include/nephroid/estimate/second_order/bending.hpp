@@ -12,6 +12,7 @@
 #pragma once
 
 #include "nephroid/estimate/second_order/path_derivatives.hpp"
+#include "nephroid/vector/scalar.hpp"
 
 #include <array>
 #include <cmath>
@@ -69,6 +70,26 @@ public:
     /// B for S = 1 in these coordinates.
     [[nodiscard]] double size() const { return second2() + 0.3 * std::sqrt(third2()) + ground_.trace(); }
 
+    /// How log B changes with a stretching (`stretching`), by its two numbers.
+    [[nodiscard]] Plane2 slope() const {
+        const auto& h = second_;
+        const auto& t = third_;
+        // Sums over all indices but two lower ones, and but the upper one twice.
+        Symmetric2 change = 4 * Symmetric2{inner(h[0], h[0]) + inner(h[1], h[1]), inner(h[0], h[1]) + inner(h[1], h[2]),
+                                           inner(h[1], h[1]) + inner(h[2], h[2])};
+        change += -2 * (Symmetric2::outer(h[0]) + 2 * Symmetric2::outer(h[1]) + Symmetric2::outer(h[2]));
+        if (const double size3 = std::sqrt(third2()); size3 > 0) {
+            const Symmetric2 lower{inner(t[0], t[0]) + 2 * inner(t[1], t[1]) + inner(t[2], t[2]),
+                                   inner(t[0], t[1]) + 2 * inner(t[1], t[2]) + inner(t[2], t[3]),
+                                   inner(t[1], t[1]) + 2 * inner(t[2], t[2]) + inner(t[3], t[3])};
+            change += (0.9 / size3) * lower;
+            change += (-0.3 / size3) * (Symmetric2::outer(t[0]) + 3 * Symmetric2::outer(t[1]) +
+                                        3 * Symmetric2::outer(t[2]) + Symmetric2::outer(t[3]));
+        }
+        change += 2 * ground_;
+        return (1 / size()) * Plane2{change.xx - change.yy, 2 * change.xy};
+    }
+
     /// The same in other coordinates, of which `axes` takes a vector to these; its determinant must be 1.
     [[nodiscard]] Bend turned(const PlaneMatrix& axes) const {
         Bend result = *this;
@@ -104,22 +125,20 @@ private:
     Symmetric2 ground_;
 };
 
-/// The stretching that leads downhill: a step of Newton's method for log B, by differences.
+/// The stretching that leads downhill: a step of Newton's method for log B, its curvature by differences.
 [[nodiscard]] inline Plane2 downhill(const Bend& bend) {
-    constexpr double h = 0.05;
-    const auto log_size = [&](double p, double q) { return std::log(bend.turned(stretching({p, q})).size()); };
-    const double here = std::log(bend.size());
-    const double right = log_size(h, 0), left = log_size(-h, 0), up = log_size(0, h), down = log_size(0, -h);
-    const Plane2 slope{(right - left) / (2 * h), (up - down) / (2 * h)};
-    // Convex: what makes the curvature less than positive is rounding, or a B that falls for ever.
-    const double xx = (right + left - 2 * here) / (h * h) + 0.1, yy = (up + down - 2 * here) / (h * h) + 0.1;
-    const double xy = (log_size(h, h) - right - up + here) / (h * h);
-    const double determinant = xx * yy - xy * xy;
-    const Plane2 step = determinant > 0 ? Plane2{(xy * slope.y - yy * slope.x) / determinant,
-                                                 (xy * slope.x - xx * slope.y) / determinant}
-                                        : -1.0 * slope;
+    constexpr double h = 1e-3, longest = 0.5;
+    const Plane2 slope = bend.slope();
+    const Plane2 p = (1 / h) * (bend.turned(stretching({h, 0})).slope() + -1.0 * slope);
+    const Plane2 q = (1 / h) * (bend.turned(stretching({0, h})).slope() + -1.0 * slope);
+    // Convex: only a B that falls for ever has no curvature along some direction.
+    const Symmetric2 curvature{p.x + 0.01, 0.5 * (p.y + q.x), q.y + 0.01};
+    const double d = curvature.determinant();
+    const Plane2 step = d > 0 ? (-1 / d) * Plane2{curvature.yy * slope.x - curvature.xy * slope.y,
+                                                  curvature.xx * slope.y - curvature.xy * slope.x}
+                              : -1.0 * slope;
     const double length = std::hypot(step.x, step.y);
-    return length > 0.5 ? (0.5 / length) * step : step;
+    return length > longest ? (longest / length) * step : step;
 }
 
 } // namespace detail
@@ -136,15 +155,16 @@ private:
                                         double stretch = std::numeric_limits<double>::infinity()) {
     const detail::Bend bend(map, share, 0.5 * roughness + 5 / (pi<double> * photons));
     PlaneMatrix axes{{1, 0}, {0, 1}};
-    const auto shape = [&] { return congruent(axes, Symmetric2::isotropic(1)); };
-    for (int step = 0; step < 12; ++step) {
+    const auto shape = [&] { return Principal2(congruent(axes, Symmetric2::isotropic(1))); };
+    constexpr int most_steps = 16; // a dozen where the shape is a needle; half of that as a rule
+    for (int step = 0; step < most_steps; ++step) {
         const Plane2 x = detail::downhill(bend.turned(axes));
         axes = axes * detail::stretching(x);
-        const Principal2 radii2(shape());
-        if (!(std::hypot(x.x, x.y) > 0.01) || radii2.larger > stretch * stretch * radii2.smaller)
+        const Principal2 radii2 = shape();
+        if (!(std::hypot(x.x, x.y) > 1e-7) || radii2.larger > 1e6 * radii2.smaller)
             break;
     }
-    const Principal2 radii2(shape());
+    const Principal2 radii2 = shape();
     const double ratio = (std::min)(std::sqrt(radii2.larger / radii2.smaller), stretch);
     // In the coordinates along and across.
     const double along = std::sqrt(ratio), across = 1 / along;

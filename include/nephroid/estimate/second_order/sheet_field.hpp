@@ -111,7 +111,7 @@ private:
 
     /// Photons that keep apart determine derivatives by fewer, from smaller cells; what chance leaves of them does not.
     [[nodiscard]] static double photons_per_cell(const FieldOptions& options, const EmissionSheet& sheet) {
-        return options.stratified && sheet.share == 1 ? 10 : EmissionCells::photons_per_cell;
+        return options.stratified && sheet.share == 1 ? 9 : EmissionCells::photons_per_cell;
     }
 
     /// A square of the grid with photons in it.
