@@ -168,10 +168,22 @@ private:
             }
         }
         SampleMetric metric;
-        for (const std::uint32_t i : inside)
-            metric.add(grid_.step_between(cell.frame_sample, photons[i].sample.at), cell.frame.to(photons[i].frame));
-        if (const auto m = metric.solve(); m && std::isfinite(nearest)) {
-            cell.metric = *m;
+        const auto add = [&](std::size_t square) {
+            for (const std::uint32_t i : grid_.photons(square))
+                metric.add(grid_.step_between(cell.frame_sample, photons[i].sample.at),
+                           cell.frame.to(photons[i].frame));
+        };
+        add(cell.square);
+        auto solved = metric.solve();
+        if (!solved) { // a border leaves few photons to a cell, or all of them in a line
+            for_each_around(cell, [&](const Cell& other, double) {
+                if (&other != &cell)
+                    add(other.square);
+            });
+            solved = metric.solve();
+        }
+        if (solved && std::isfinite(nearest)) {
+            cell.metric = *solved;
             cell.has_frame = true;
         }
     }
@@ -276,7 +288,7 @@ private:
         const Plane2 outwards = unit(missing), across{-outwards.y, outwards.x};
         double outermost = -1.5 * side;
         for (const Plane2 place : places)
-            if (std::abs(inner(place, across)) < 0.75 * side)
+            if (std::abs(inner(place, across)) < 0.5 * side)
                 outermost = (std::max)(outermost, inner(place, outwards));
         cell.border_distance = outermost;
         cell.border_direction = outwards;
