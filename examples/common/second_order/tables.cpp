@@ -12,7 +12,7 @@ namespace nephroid::examples::second_order {
 
 namespace {
 
-/// What the tables show: the errors of the issue's own bars. SSIM has two valleys by s, and its ratio says little.
+/// What the tables show. SSIM has two valleys by s, and its ratio says little.
 constexpr std::array<Measure, 2> shown = {Measure::relative, Measure::rmse};
 
 [[nodiscard]] Table table_by_photons(const std::vector<Study>& studies, std::string title, std::string caption) {
@@ -42,11 +42,15 @@ public:
         sum.count += 1;
         sum.largest = (std::max)(sum.largest, ratio);
     }
-    [[nodiscard]] double mean(Measure measure) const {
+    /// "0.65", or a dash where there were none.
+    [[nodiscard]] std::string mean(Measure measure) const {
         const Sum& sum = sums_[std::size_t(measure)];
-        return std::exp(sum.logs / sum.count);
+        return sum.count > 0 ? text("%.2f", std::exp(sum.logs / sum.count)) : "–";
     }
-    [[nodiscard]] double largest(Measure measure) const { return sums_[std::size_t(measure)].largest; }
+    [[nodiscard]] std::string largest(Measure measure) const {
+        const Sum& sum = sums_[std::size_t(measure)];
+        return sum.count > 0 ? text("%.2f", sum.largest) : "–";
+    }
 
 private:
     struct Sum {
@@ -73,8 +77,8 @@ void add_summary(Table& table, const std::vector<Study>& studies, const Ratio& r
                 for (const Measure measure : shown)
                     if (const auto ratio = ratio_of(study, count, measure); ratio && study.sequence == sequence)
                         summary.add(measure, *ratio);
-            means.push_back(pair_of([&](Measure m) { return text("%.2f", summary.mean(m)); }));
-            largest.push_back(pair_of([&](Measure m) { return text("%.2f", summary.largest(m)); }));
+            means.push_back(pair_of([&](Measure m) { return summary.mean(m); }));
+            largest.push_back(pair_of([&](Measure m) { return summary.largest(m); }));
         }
         table.rows.push_back(std::move(means));
         table.rows.push_back(std::move(largest));
@@ -85,8 +89,8 @@ void add_summary(Table& table, const std::vector<Study>& studies, const Ratio& r
             for (const Measure measure : shown)
                 if (const auto ratio = ratio_of(study, count, measure))
                     all.add(measure, *ratio);
-    table.caption += "; over all, mean " + pair_of([&](Measure m) { return text("%.2f", all.mean(m)); }) +
-                     " and largest " + pair_of([&](Measure m) { return text("%.2f", all.largest(m)); });
+    table.caption += "; over all, mean " + pair_of([&](Measure m) { return all.mean(m); }) + " and largest " +
+                     pair_of([&](Measure m) { return all.largest(m); });
 }
 
 [[nodiscard]] std::string slope_text(const std::vector<Trial>& trials, Measure measure) {
