@@ -320,17 +320,17 @@ TEST_CASE("sheet field: footprints do not depend on how the light turns its tang
 
 // 240 × 30 photons over 8 × 1, 53 units from side to side.
 TEST_CASE("sheet field: a long domain has borders as far away as any") {
-    constexpr double length = 8, photons = 240 * 30;
+    constexpr double extent = 8, photons = 240 * 30;
     const Field field =
-        field_of(photons_of(affine, lattice(240, 30), 0, length), {.stratified = true, .photons = photons});
+        field_of(photons_of(affine, lattice(240, 30), 0, extent), {.stratified = true, .photons = photons});
     const double s2 = straight_radius2(photons), width = 30 * step;
     for (const double u : {0.002, 0.02, 0.5, 0.985})
         for (const double v : {0.05, 0.5, 0.8}) {
-            const MapPhoton photon = photon_at(affine, {u, v}, photons, length);
+            const MapPhoton photon = photon_at(affine, {u, v}, photons, extent);
             const auto here = field.at(photon.sample.at, photon.frame, 1);
             REQUIRE(here);
             check_close(here->shape,
-                        {between(s2, length * u * width, length * width), 0, between(s2, v * width, width)}, 1e-6 * s2);
+                        {between(s2, extent * u * width, extent * width), 0, between(s2, v * width, width)}, 1e-6 * s2);
         }
 }
 

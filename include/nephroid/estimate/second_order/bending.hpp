@@ -173,4 +173,23 @@ private:
     return (0.5 * size) * radii2.with(1 / ratio, ratio);
 }
 
+/// The same for the photons of an area light, whose derivatives are a slice's: by how much a unit step in each direction
+/// changes the tangents. The light of all slices together is smooth where one of them bends, and footprints that are long
+/// where their own slice allows it have a larger error (a ring lit by a disk: 0.058 against 0.052).
+[[nodiscard]] inline Symmetric2 slice_bending(const PathDerivatives& map, double photons, double roughness) {
+    const detail::EmissionPullback pull_back(map.first);
+    const std::array<Plane2, 3> h = {pull_back(map.second[0]), pull_back(map.second[1]), pull_back(map.second[2])};
+    const std::array<Plane2, 4> t = {pull_back(map.third[0]), pull_back(map.third[1]), pull_back(map.third[2]),
+                                     pull_back(map.third[3])};
+    const Symmetric2 second{inner(h[0], h[0]) + inner(h[1], h[1]), inner(h[0], h[1]) + inner(h[1], h[2]),
+                            inner(h[1], h[1]) + inner(h[2], h[2])};
+    const Symmetric2 third{inner(t[0], t[0]) + 2 * inner(t[1], t[1]) + inner(t[2], t[2]),
+                           inner(t[0], t[1]) + 2 * inner(t[1], t[2]) + inner(t[2], t[3]),
+                           inner(t[1], t[1]) + 2 * inner(t[2], t[2]) + inner(t[3], t[3])};
+    Symmetric2 q = (1 / (std::max)(1.0, second.trace())) * second; // as in Bend, no more than a photon's share
+    if (third.trace() > 0)
+        q += (0.3 * (std::min)(1.0, std::sqrt(third.trace())) / third.trace()) * third;
+    return q + Symmetric2::isotropic(0.5 * roughness + 5 / (pi<double> * photons));
+}
+
 } // namespace nephroid

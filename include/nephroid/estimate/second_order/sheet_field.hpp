@@ -382,11 +382,21 @@ private:
             return;
         const std::array<Plane2, 2> slopes{{{samples_by_place.first.x, samples_by_place.second.x},
                                             {samples_by_place.first.y, samples_by_place.second.y}}};
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            const double slope = std::sqrt(inner(slopes[axis], slopes[axis]));
+        const std::array<double, 2> steepness{std::sqrt(inner(slopes[0], slopes[0])),
+                                              std::sqrt(inner(slopes[1], slopes[1]))};
+        const auto nearer = [&](std::size_t axis) {
+            return (std::min)(sample[axis], 1 - sample[axis]) / steepness[axis];
+        };
+        // Where the borders of the two samples do not meet at a right angle there is no corner: a disk's border is all
+        // four sides of the square, and the nearer of them is the one.
+        const double lean = std::abs(inner(slopes[0], slopes[1])) / (steepness[0] * steepness[1]);
+        const std::size_t nearest = nearer(0) <= nearer(1) ? 0 : 1;
+        for (const std::size_t axis : {nearest, 1 - nearest}) {
+            if (axis != nearest && lean > 0.3)
+                continue;
             for (const bool upper : {false, true}) {
-                const double distance = (upper ? 1 - sample[axis] : sample[axis]) / slope;
-                const Plane2 n = ((upper ? 1 : -1) / slope) * slopes[axis];
+                const double distance = (upper ? 1 - sample[axis] : sample[axis]) / steepness[axis];
+                const Plane2 n = ((upper ? 1 : -1) / steepness[axis]) * slopes[axis];
                 const Reach reach = reach_to(distance);
                 shape.bound_along(n, reach.most, -reach.by_distance * n);
             }
