@@ -25,7 +25,8 @@ using Case = BuiltinCase<float, float>;
 /// same for all but very smooth pictures.
 [[nodiscard]] double ghosts_of(const BuiltinFilm& film, const Options& options) {
     const double emitted = double(options.emit.value_or(options.photons));
-    const double largest = options.first_order ? default_smoothing : SmoothingBounds{}.largest_radius;
+    const double largest =
+        options.first_order ? default_smoothing : bounds_for(SmoothingBounds{}, emitted).largest_radius;
     const double margin = (std::max)(0.125, ghost_margin(film, options.smoothing.value_or(largest), emitted));
     if (margin > 4)
         throw UsageError("--smoothing, --photons: footprints would reach over " + std::to_string(std::lround(margin)) +

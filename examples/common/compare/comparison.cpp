@@ -73,8 +73,9 @@ struct Choice {
     return {&method, sweep.evaluated()};
 }
 
-[[nodiscard]] Trial tried(const CompareOptions& options, const Bench& bench, const Method& method,
-                          const Photons& photons) {
+} // namespace
+
+Trial tried(const CompareOptions& options, const Bench& bench, const Method& method, const Photons& photons) {
     Trial trial;
     trial.method = &method;
     trial.sequence = photons.sequence;
@@ -98,8 +99,6 @@ struct Choice {
     }
     return trial;
 }
-
-} // namespace
 
 std::vector<Trial> compare(const CompareOptions& options, const Bench& bench, const std::function<void(Trial&)>& done) {
     std::vector<Trial> trials;

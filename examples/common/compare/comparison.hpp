@@ -44,6 +44,11 @@ struct Trial {
     [[nodiscard]] double cost(Measure measure) const { return cost_of(by(measure).errors, measure); }
 };
 
+/// Sweeps a method's bandwidth with these photons and measures it at the best, by each measure.
+/// @param photons  of the bench
+[[nodiscard]] Trial tried(const CompareOptions& options, const Bench& bench, const Method& method,
+                          const Photons& photons);
+
 /// Runs all that the options ask for: for each sequence and count the methods in turn, on the same photons.
 /// @param done  called with each trial when it is finished; may take the pictures away
 [[nodiscard]] std::vector<Trial> compare(const CompareOptions& options, const Bench& bench,

@@ -13,18 +13,6 @@ namespace nephroid::examples {
 
 namespace {
 
-/// The words between commas. Throws UsageError for an empty one.
-[[nodiscard]] std::vector<std::string> listed(const std::string& option, const std::string& text) {
-    std::vector<std::string> words;
-    std::istringstream stream(text + ",");
-    for (std::string word; std::getline(stream, word, ',');) {
-        if (word.empty())
-            throw UsageError(option + ": '" + text + "' has an empty entry");
-        words.push_back(word);
-    }
-    return words;
-}
-
 template <class T>
 void keep_first_of_each(std::vector<T>& entries) {
     std::vector<T> kept;
@@ -55,25 +43,6 @@ void keep_first_of_each(std::vector<T>& entries) {
     return ids;
 }
 
-[[nodiscard]] std::vector<std::uint64_t> read_photons(const std::string& text) {
-    std::vector<std::uint64_t> counts;
-    for (const std::string& word : listed("--photons", text))
-        counts.push_back(whole_number("--photons", word, 100));
-    std::ranges::sort(counts);
-    keep_first_of_each(counts);
-    if (counts.back() > 100'000'000)
-        throw UsageError("--photons: " + std::to_string(counts.back()) + " are more than 1e8, and all are stored");
-    return counts;
-}
-
-[[nodiscard]] std::vector<SequenceKind> read_sequences(const std::string& text) {
-    std::vector<SequenceKind> kinds;
-    for (const std::string& word : listed("--sequence", text))
-        kinds.push_back(chosen("--sequence", word, sequence_names()));
-    keep_first_of_each(kinds);
-    return kinds;
-}
-
 [[nodiscard]] std::string command_line(int argc, const char* const* argv) {
     std::string command = "compare";
     for (int i = 1; i < argc; ++i)
@@ -98,6 +67,36 @@ void check(const CompareOptions& options) {
 }
 
 } // namespace
+
+std::vector<std::string> listed(const std::string& option, const std::string& text) {
+    std::vector<std::string> words;
+    std::istringstream stream(text + ",");
+    for (std::string word; std::getline(stream, word, ',');) {
+        if (word.empty())
+            throw UsageError(option + ": '" + text + "' has an empty entry");
+        words.push_back(word);
+    }
+    return words;
+}
+
+std::vector<std::uint64_t> read_photon_counts(const std::string& text) {
+    std::vector<std::uint64_t> counts;
+    for (const std::string& word : listed("--photons", text))
+        counts.push_back(whole_number("--photons", word, 100));
+    std::ranges::sort(counts);
+    keep_first_of_each(counts);
+    if (counts.back() > 100'000'000)
+        throw UsageError("--photons: " + std::to_string(counts.back()) + " are more than 1e8, and all are stored");
+    return counts;
+}
+
+std::vector<SequenceKind> read_sequences(const std::string& text) {
+    std::vector<SequenceKind> kinds;
+    for (const std::string& word : listed("--sequence", text))
+        kinds.push_back(chosen("--sequence", word, sequence_names()));
+    keep_first_of_each(kinds);
+    return kinds;
+}
 
 std::optional<CompareOptions> read_compare_options(int argc, const char* const* argv) {
     CompareOptions options;
@@ -126,7 +125,7 @@ std::optional<CompareOptions> read_compare_options(int argc, const char* const* 
     if (!parse(app, argc, argv))
         return std::nullopt;
     options.methods = read_methods(methods);
-    options.photons = read_photons(photons);
+    options.photons = read_photon_counts(photons);
     options.sequences = read_sequences(sequence);
     options.seed = whole_number("--seed", seed, 0);
     const PictureSize pixels = picture_size(size);

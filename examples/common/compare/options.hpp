@@ -33,6 +33,15 @@ struct CompareOptions {
     std::string command;                                 ///< as it was called
 };
 
+/// The words between commas. Throws UsageError for an empty one, which names the option.
+[[nodiscard]] std::vector<std::string> listed(const std::string& option, const std::string& text);
+
+/// "5000,2e4": counts of --photons, growing, each once, from 100 to 1e8. Throws UsageError.
+[[nodiscard]] std::vector<std::uint64_t> read_photon_counts(const std::string& text);
+
+/// "halton,random": kinds of --sequence, each once. Throws UsageError.
+[[nodiscard]] std::vector<SequenceKind> read_sequences(const std::string& text);
+
 /// Reads the command line.
 /// @return  nothing if it asked for help, which has then been printed
 /// Throws UsageError.

@@ -152,7 +152,8 @@ Estimate splat_second_order(const Bench& bench, const Photons& photons, double s
 }
 
 Estimate splat_without_parameter(const Bench& bench, const Photons& photons, double, Source) {
-    return splat_to_second_order(bench, photons, std::nullopt, SmoothingBounds{}.largest_radius);
+    const SmoothingBounds bounds = bounds_for(SmoothingBounds{}, double(photons.emitted));
+    return splat_to_second_order(bench, photons, std::nullopt, bounds.largest_radius);
 }
 
 Estimate splat(const Bench& bench, const Photons& photons, double smoothing, Source source) {

@@ -31,6 +31,7 @@ struct Symmetric2 {
         xx += o.xx, xy += o.xy, yy += o.yy;
         return *this;
     }
+    friend Symmetric2 operator+(Symmetric2 a, const Symmetric2& b) { return a += b; }
     friend Symmetric2 operator*(double s, const Symmetric2& m) { return {s * m.xx, s * m.xy, s * m.yy}; }
 };
 

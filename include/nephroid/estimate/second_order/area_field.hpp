@@ -158,7 +158,7 @@ private:
         double rough = 0;
         if (!fit.solve(cell.map, cell.samples_by_step, rough))
             return;
-        cell.log_q = log_bending(bending(cell.map, options_.photons, 1, rough), options_.bounds);
+        cell.log_q = log_bending(slice_bending(cell.map, options_.photons, rough), options_.bounds);
         cell.is_resolved = std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);
     }
 

@@ -4,6 +4,7 @@
 
 #include "nephroid/estimate/second_order/emission_sheets.hpp"
 #include "nephroid/estimate/second_order/roughness.hpp"
+#include "nephroid/estimate/second_order/varying_shape.hpp"
 
 #include <limits>
 #include <optional>
@@ -39,7 +40,7 @@ public:
                const FieldOptions& options, const TaskRunner& run)
         : options_(options), density_{options.stratified, sheet.share},
           grid_(places_of(all, sheet), sheets.aspect(), options.repeats,
-                EmissionCells::photons_per_cell * double(sheet.photons.size()) / (double(all.size()) * sheet.share)),
+                photons_per_cell(options, sheet) * double(sheet.photons.size()) / (double(all.size()) * sheet.share)),
           slots_(grid_.size(), nowhere) {
         PathSamples photons;
         for (const std::uint32_t i : sheet.photons)
@@ -63,7 +64,7 @@ public:
                 cell.shape = Symmetric2::isotropic(square(*options_.smoothing));
             return;
         }
-        find_borders();
+        find_borders(photons);
         for_each_cell([&](Cell& cell) { choose_shape(cell); });
     }
 
@@ -73,45 +74,49 @@ public:
         if (here == nullptr || !here->is_resolved)
             return std::nullopt;
         FieldSample result{};
-        std::array<Symmetric2, 2> by_sample; // ∂S by the two samples
+        VaryingShape shape;
+        const PlaneMatrix samples_by_place = (frame.axes_of(here->frame) * here->metric).inverse();
         for (const Node& node : nodes_about(sample)) {
             const Cell* there = cell_in(node.square);
             const Cell& cell = there != nullptr && there->is_resolved ? *there : *here;
             // Tensors turn with the axes that they are by.
-            const Symmetric2 shape = congruent(frame.axes_of(cell.frame), cell.shape);
-            result.shape += node.weight * shape;
-            for (std::size_t axis = 0; axis < 2; ++axis)
-                by_sample[axis] += node.slope[axis] * shape;
-            const auto second = turned(cell.map.second, cell.frame.axes_of(frame));
+            const PlaneMatrix axes = frame.axes_of(cell.frame), back = cell.frame.axes_of(frame);
+            const VaryingShape of_cell = shape_in(cell, sample, back).turned(axes);
+            shape.add(node.weight, of_cell);
+            const Plane2 slope{node.slope[0], node.slope[1]};
+            shape.along_u += inner(slope, samples_by_place.first) * of_cell.value;
+            shape.along_v += inner(slope, samples_by_place.second) * of_cell.value;
+            const auto second = turned(cell.map.second, back);
             for (std::size_t i = 0; i < second.size(); ++i)
                 result.second[i] += node.weight * second[i];
         }
-        const PlaneMatrix samples_by_place = (frame.axes_of(here->frame) * here->metric).inverse();
-        const auto derivative = [&](Plane2 by_place) { // along an axis, which is so many samples away
-            Symmetric2 d = by_place.x * by_sample[0];
-            d += by_place.y * by_sample[1];
-            return d;
-        };
-        const Symmetric2 du = derivative(samples_by_place.first), dv = derivative(samples_by_place.second);
-        result.divergence = {du.xx + dv.xy, du.xy + dv.yy};
+        bound_by_domain(shape, sample, samples_by_place);
+        result.shape = shape.value;
+        result.divergence = {shape.along_u.xx + shape.along_v.xy, shape.along_u.xy + shape.along_v.yy};
         return result;
     }
 
 private:
     static constexpr std::uint32_t nowhere = (std::numeric_limits<std::uint32_t>::max)();
-    static constexpr double least_border_radius = 3;
+
+    /// Photons that keep apart determine derivatives by fewer, from smaller cells; what chance leaves of them does not.
+    [[nodiscard]] static double photons_per_cell(const FieldOptions& options, const EmissionSheet& sheet) {
+        return options.stratified && sheet.share == 1 ? 9 : EmissionCells::photons_per_cell;
+    }
 
     /// A square of the grid with photons in it.
     struct Cell {
         std::size_t square;
         EmissionFrame frame{}; ///< of the photon nearest to the middle
         std::array<double, 2> frame_sample{};
+        double size2 = 0;      ///< of that photon's tangents
         PlaneMatrix metric{};  ///< steps between samples to displacements in the frame
         PathDerivatives map{}; ///< at the middle
         Symmetric2 log_q{}, shape{};
         bool has_frame = false, is_resolved = false;
         bool is_next_to_border = false;                                   ///< which lies within it
-        double border_distance = std::numeric_limits<double>::infinity(); ///< in the frame's units
+        double border_distance = std::numeric_limits<double>::infinity(); ///< of the middle, in the frame's units; less
+                                                                          ///< than 0 beyond the border
         Plane2 border_direction{};                                        ///< unit, or 0 where the border is all around
     };
 
@@ -148,13 +153,27 @@ private:
                 nearest = inner(in_cells, in_cells);
                 cell.frame = photons[i].frame;
                 cell.frame_sample = photons[i].sample.at;
+                const auto& tangents = photons[i].tangents;
+                cell.size2 = inner(tangents[0], tangents[0]) + inner(tangents[1], tangents[1]);
             }
         }
         SampleMetric metric;
-        for (const std::uint32_t i : inside)
-            metric.add(grid_.step_between(cell.frame_sample, photons[i].sample.at), cell.frame.to(photons[i].frame));
-        if (const auto m = metric.solve(); m && std::isfinite(nearest)) {
-            cell.metric = *m;
+        const auto add = [&](std::size_t square) {
+            for (const std::uint32_t i : grid_.photons(square))
+                metric.add(grid_.step_between(cell.frame_sample, photons[i].sample.at),
+                           cell.frame.to(photons[i].frame));
+        };
+        add(cell.square);
+        auto solved = metric.solve();
+        if (!solved) { // a border leaves few photons to a cell, or all of them in a line
+            for_each_around(cell, [&](const Cell& other, double) {
+                if (&other != &cell)
+                    add(other.square);
+            });
+            solved = metric.solve();
+        }
+        if (solved && std::isfinite(nearest)) {
+            cell.metric = *solved;
             cell.has_frame = true;
         }
     }
@@ -186,7 +205,10 @@ private:
                 const PlaneMatrix axes = photon.frame.axes_of(cell.frame);
                 const std::array<Space3, 2> by_axes{axes.first.x * tangents[0] + axes.first.y * tangents[1],
                                                     axes.second.x * tangents[0] + axes.second.y * tangents[1]};
-                fit.add(at, by_axes, rest * rest);
+                // By its own measure where that is larger than the middle's: beside a pole of the map a few photons would
+                // else decide for all.
+                const double size2 = inner(by_axes[0], by_axes[0]) + inner(by_axes[1], by_axes[1]);
+                fit.add(at, by_axes, rest * rest * (cell.size2 > 0 ? cell.size2 / (cell.size2 + size2) : 0.5));
                 if (&other == &cell)
                     here.push_back({{at.x, at.y, 0, 0}, by_axes, {}});
             }
@@ -198,7 +220,8 @@ private:
             const auto fitted = tangents_at(cell.map, {photon.at[0], photon.at[1]});
             photon.unexplained = {photon.tangents[0] - fitted[0], photon.tangents[1] - fitted[1]};
         }
-        const Symmetric2 q = bending(cell.map, options_.photons, density_.share, roughness(here));
+        const Symmetric2 q =
+            bending(cell.map, options_.photons, density_.share, roughness(here), options_.bounds.stretch);
         cell.log_q = log_bending(q, options_.bounds);
         cell.is_resolved = cell.is_resolved && std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);
     }
@@ -218,33 +241,59 @@ private:
         return from.metric(grid_.step_between(grid_.middle(from.square), grid_.middle(to.square)));
     }
 
-    /// The distance and direction from each cell to where the sheet ends: to squares without its photons, or beyond the
-    /// domain. Passed on from cell to cell, no further than footprints reach.
-    void find_borders() {
-        std::vector<std::uint32_t> border(cells_.size(), nowhere), pending;
-        for (std::uint32_t index = 0; index < cells_.size(); ++index) {
-            Cell& cell = cells_[index];
-            if (!cell.is_resolved)
-                continue;
-            Plane2 outwards{};
-            bool ends = cell.is_next_to_border;
-            for (int dy = -1; dy <= 1; ++dy)
-                for (int dx = -1; dx <= 1; ++dx) {
-                    const auto square = grid_.neighbour(cell.square, dx, dy);
-                    const Cell* other = square ? cell_in(*square) : nullptr;
-                    if (other != nullptr && other->is_resolved)
-                        continue;
-                    ends = true;
-                    const Plane2 step = cell.metric({dx / double(grid_.columns()), dy / double(grid_.rows())});
-                    outwards = outwards + (1 / std::sqrt(inner(step, step))) * step;
+    /// Whether the sheet ends in a cell or beside it, elsewhere than with the domain.
+    [[nodiscard]] bool ends_about(const Cell& cell) const {
+        bool ends = cell.is_next_to_border;
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (const auto square = grid_.neighbour(cell.square, dx, dy)) {
+                    const Cell* other = cell_in(*square);
+                    ends = ends || other == nullptr || !other->is_resolved;
                 }
-            if (!ends)
-                continue;
-            cell.border_distance = 0.5 * std::sqrt(std::abs(cell.metric.determinant()) / double(grid_.size()));
-            cell.border_direction = unit(outwards);
-            border[index] = index;
-            pending.push_back(index);
-        }
+        return ends;
+    }
+
+    /// Lays the border of the sheet through or beside a cell: beyond the outermost of the photons about it, in the
+    /// direction where they are missing. All around the cell where they are missing on no side more than on another.
+    void lay_border(Cell& cell, const PathSamples& photons) const {
+        const auto middle = grid_.middle(cell.square);
+        const double side = std::sqrt(std::abs(cell.metric.determinant()) / double(grid_.size()));
+        Plane2 of_photons{}, of_squares{};
+        double squares = 0;
+        std::vector<Plane2> places;
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (const auto square = grid_.neighbour(cell.square, dx, dy)) {
+                    of_squares = of_squares + cell.metric(grid_.step_between(middle, grid_.middle(*square)));
+                    squares += 1;
+                    for (const std::uint32_t i : grid_.photons(*square)) {
+                        places.push_back(cell.metric(grid_.step_between(middle, photons[i].sample.at)));
+                        of_photons = of_photons + places.back();
+                    }
+                }
+        const Plane2 missing = (1 / squares) * of_squares + (-1 / double(places.size())) * of_photons;
+        cell.border_distance = 0.5 * side;
+        if (!(inner(missing, missing) > square(0.1 * side)))
+            return;
+        const Plane2 outwards = unit(missing), across{-outwards.y, outwards.x};
+        double outermost = -1.5 * side;
+        for (const Plane2 place : places)
+            if (std::abs(inner(place, across)) < 0.5 * side)
+                outermost = (std::max)(outermost, inner(place, outwards));
+        cell.border_distance = outermost;
+        cell.border_direction = outwards;
+    }
+
+    /// The distance and direction from each cell to where the sheet ends within the domain. Passed on from cell to cell,
+    /// no further than footprints reach.
+    void find_borders(const PathSamples& photons) {
+        std::vector<std::uint32_t> border(cells_.size(), nowhere), pending;
+        for (std::uint32_t index = 0; index < cells_.size(); ++index)
+            if (cells_[index].is_resolved && ends_about(cells_[index])) {
+                lay_border(cells_[index], photons);
+                border[index] = index;
+                pending.push_back(index);
+            }
         for (std::size_t next = 0; next < pending.size(); ++next) { // a queue: nearer borders arrive first, or replace
             const std::uint32_t from = border[pending[next]];
             for_each_around(cells_[pending[next]], [&](const Cell& other, double) {
@@ -253,7 +302,9 @@ private:
                     return;
                 const Plane2 away = displacement(other, cells_[from]);
                 const double distance = cells_[from].border_distance + std::sqrt(inner(away, away));
-                if (!(distance < (1 - 1e-9) * other.border_distance) || distance > options_.bounds.largest_radius)
+                const double known = other.border_distance;
+                if ((std::isfinite(known) && !(distance < known - 1e-9 * std::abs(known))) ||
+                    distance > options_.bounds.largest_radius)
                     return;
                 cells_[index].border_distance = distance;
                 cells_[index].border_direction = unit(away);
@@ -279,28 +330,66 @@ private:
             blurred += weight * congruent(cell.frame.axes_of(other.frame), other.log_q);
             weights += weight;
         });
-        cell.shape = smoothing_tensor((1 / weights) * blurred, density_, options_.bounds);
-        bound_by_border(cell);
-        cell.shape = options_.scale * cell.shape;
+        cell.shape = options_.scale * smoothing_tensor((1 / weights) * blurred, density_, options_.bounds);
     }
 
-    void bound_by_border(Cell& cell) const {
+    /// How far a footprint may reach towards a border, and how that changes with the distance to it.
+    struct Reach {
+        double most, by_distance;
+    };
+
+    [[nodiscard]] Reach reach_to(double distance) const {
+        const double unit_reach = std::sqrt(options_.scale), least = options_.bounds.least_radius;
+        return distance > least ? Reach{unit_reach * distance, unit_reach} : Reach{unit_reach * least, 0};
+    }
+
+    /// A cell's shape where a photon is, in the cell's frame: no wider than the sheet.
+    ///
+    /// @param steps  a step along the photon's axes in the cell's frame, by columns
+    [[nodiscard]] VaryingShape shape_in(const Cell& cell, const std::array<double, 2>& sample,
+                                        const PlaneMatrix& steps) const {
+        VaryingShape shape{cell.shape, {}, {}};
+        if (!std::isfinite(cell.border_distance) || options_.smoothing)
+            return shape;
         const Plane2 n = cell.border_direction;
-        if (!std::isfinite(cell.border_distance))
+        if (!(inner(n, n) > 0)) {
+            const double most = square(reach_to(cell.border_distance).most);
+            const Principal2 principal(shape.value);
+            shape.value = principal.with((std::min)(principal.larger, most), (std::min)(principal.smaller, most));
+            return shape;
+        }
+        const Plane2 away = cell.metric(grid_.step_between(grid_.middle(cell.square), sample));
+        const Reach reach = reach_to(cell.border_distance - inner(n, away));
+        shape.bound_along(n, reach.most,
+                          {-reach.by_distance * inner(n, steps.first), -reach.by_distance * inner(n, steps.second)});
+        return shape;
+    }
+
+    /// Bounds a photon's shape, in its own frame, by the borders of the light's domain.
+    void bound_by_domain(VaryingShape& shape, const std::array<double, 2>& sample,
+                         const PlaneMatrix& samples_by_place) const {
+        if (grid_.repeats() || options_.smoothing)
             return;
-        // Where the map widens towards the border, what spills over it lands further out than one would think.
-        const auto& h = cell.map.second;
-        const Plane2 widening = detail::EmissionPullback(cell.map.first)((n.x * n.x) * h[0] +
-                                                                         ((2 * n.x * n.y) * h[1] + (n.y * n.y) * h[2]));
-        const double reach = (std::max)(least_border_radius,
-                                        cell.border_distance *
-                                            std::clamp(1 + 0.5 * cell.border_distance * inner(n, widening), 1.0, 4.0));
-        if (inner(n, n) > 0) {
-            cell.shape = bounded_along(cell.shape, n, reach);
-        } else {
-            const double most = square(reach);
-            const Principal2 principal(cell.shape);
-            cell.shape = principal.with((std::min)(principal.larger, most), (std::min)(principal.smaller, most));
+        const std::array<Plane2, 2> slopes{{{samples_by_place.first.x, samples_by_place.second.x},
+                                            {samples_by_place.first.y, samples_by_place.second.y}}};
+        const std::array<double, 2> steepness{std::sqrt(inner(slopes[0], slopes[0])),
+                                              std::sqrt(inner(slopes[1], slopes[1]))};
+        const auto nearer = [&](std::size_t axis) {
+            return (std::min)(sample[axis], 1 - sample[axis]) / steepness[axis];
+        };
+        // Where the borders of the two samples do not meet at a right angle there is no corner: a disk's border is all
+        // four sides of the square, and the nearer of them is the one.
+        const double lean = std::abs(inner(slopes[0], slopes[1])) / (steepness[0] * steepness[1]);
+        const std::size_t nearest = nearer(0) <= nearer(1) ? 0 : 1;
+        for (const std::size_t axis : {nearest, 1 - nearest}) {
+            if (axis != nearest && lean > 0.3)
+                continue;
+            for (const bool upper : {false, true}) {
+                const double distance = (upper ? 1 - sample[axis] : sample[axis]) / steepness[axis];
+                const Plane2 n = ((upper ? 1 : -1) / steepness[axis]) * slopes[axis];
+                const Reach reach = reach_to(distance);
+                shape.bound_along(n, reach.most, -reach.by_distance * n);
+            }
         }
     }
 

@@ -9,66 +9,12 @@
 /// tr(S Q) = 2 s² sqrt(det Q). That leaves a minimum over s alone.
 #pragma once
 
-#include "nephroid/estimate/second_order/path_derivatives.hpp"
+#include "nephroid/estimate/second_order/bending.hpp"
 #include "nephroid/estimate/second_order/policy.hpp"
 
 #include <cmath>
 
 namespace nephroid {
-
-namespace detail {
-
-/// J⁻¹ of a vector in the image of J (what sticks out is dropped), kept finite where J is singular.
-class EmissionPullback {
-public:
-    explicit EmissionPullback(const std::array<Space3, 2>& first)
-        : first_(first), gram_{inner(first[0], first[0]), inner(first[0], first[1]), inner(first[1], first[1])} {
-        determinant_ = (std::max)(gram_.determinant(), 1e-12 * gram_.trace() * gram_.trace());
-    }
-
-    [[nodiscard]] Plane2 operator()(const Space3& v) const {
-        const double a = inner(first_[0], v), b = inner(first_[1], v);
-        const double d = determinant_ > 0 ? 1 / determinant_ : 0;
-        return {d * (gram_.yy * a - gram_.xy * b), d * (gram_.xx * b - gram_.xy * a)};
-    }
-
-private:
-    std::array<Space3, 2> first_;
-    Symmetric2 gram_;
-    double determinant_;
-};
-
-/// What a tensor becomes when its trace is limited.
-[[nodiscard]] inline Symmetric2 with_trace_at_most(double most, const Symmetric2& m) {
-    return m.trace() > most ? (most / m.trace()) * m : m;
-}
-} // namespace detail
-
-/// Q: how much the map bends, by direction, per u0².
-///
-/// Q = (J⁻¹H)ᵀ(J⁻¹H) + 0.3 (the square root of the same of T, by its trace) + (r/2 + 5/(π N)) 1, r the roughness, the
-/// first two with a trace of at most 1 and 0.3: what bends by more within one photon's own share is not resolved anyway.
-///
-/// @param photons  emitted into this domain, N: no footprint should be of the domain's own size
-/// @param share    of them that took this path (PhotonDensity): each stands for so much more of the domain
-/// @param roughness  what bends besides (`roughness`), in any direction, per u0²
-[[nodiscard]] inline Symmetric2 bending(const PathDerivatives& map, double photons, double share = 1,
-                                        double roughness = 0) {
-    const detail::EmissionPullback pull_back(map.first);
-    const std::array<Plane2, 3> h = {pull_back(map.second[0]), pull_back(map.second[1]), pull_back(map.second[2])};
-    const std::array<Plane2, 4> t = {pull_back(map.third[0]), pull_back(map.third[1]), pull_back(map.third[2]),
-                                     pull_back(map.third[3])};
-    const Symmetric2 second{inner(h[0], h[0]) + inner(h[1], h[1]), inner(h[0], h[1]) + inner(h[1], h[2]),
-                            inner(h[1], h[1]) + inner(h[2], h[2])};
-    const Symmetric2 third{inner(t[0], t[0]) + 2 * inner(t[1], t[1]) + inner(t[2], t[2]),
-                           inner(t[0], t[1]) + 2 * inner(t[1], t[2]) + inner(t[2], t[3]),
-                           inner(t[1], t[1]) + 2 * inner(t[2], t[2]) + inner(t[3], t[3])};
-    Symmetric2 q = detail::with_trace_at_most(share, second);
-    if (third.trace() > 0)
-        q += (0.3 * (std::min)(share, std::sqrt(third.trace())) / third.trace()) * third;
-    q += Symmetric2::isotropic(0.5 * roughness + 5 / (pi<double> * photons));
-    return q;
-}
 
 /// log Q, its eigenvalues no further apart than the stretch allows. Neighbouring cells are blended in this form.
 [[nodiscard]] inline Symmetric2 log_bending(const Symmetric2& q, const SmoothingBounds& bounds) {
