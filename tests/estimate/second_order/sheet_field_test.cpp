@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/estimate/second_order/sheet_field.hpp"
 
+#include "nephroid/emission/warp.hpp"
 #include "nephroid/estimate/second_order/footprint_field.hpp"
-
 #include "nephroid/transport/executor.hpp"
 
 #include "estimate/second_order/maps.hpp"
@@ -153,6 +153,42 @@ TEST_CASE("sheet field: footprints reach as far as the domain's border and no fu
             const Symmetric2 expected{between(s2, u * width, width), 0, between(s2, v * width, width)};
             check_close(here->shape, expected, 1e-9 * s2);
             CHECK(std::sqrt(here->shape.xx) <= (std::max)(2.0, (std::min)(u, 1 - u) * width));
+        }
+}
+
+// Within a cell, a 21st of the square's side, the map onto the disk turns by (π/4) (2/21) = 0.075 at most, and so may the
+// distance to the rim be off by that share: 0.15 of its square. Along the diagonals the map has kinks.
+TEST_CASE("sheet field: a disk's rim is as far as it is all around, the corners of the samples among it") {
+    const auto on_disk = [](const std::array<double, 2>& sample) {
+        const DiskPoint<double> at = concentric_disk(sample[0], sample[1]);
+        const double length = 2 * unit_of(all, pi<double>);
+        const glm::dvec3 zero(0), place(at.x, at.y, 1);
+        const Photon<glm::dvec3, double> emitted{
+            place, {0, 0, -1}, 1 / all, {Tangent<glm::dvec3>{{length, 0, 0}, zero}, {{0, length, 0}, zero}}};
+        const Deposit<glm::dvec3, double, 2> landed{
+            {at.x, at.y, 0}, {0, 0, 1}, {0, 0, -1}, emitted.flux, {{{length, 0, 0}, {0, length, 0}}}};
+        return MapPhoton{{sample, 0, 2}, EmissionFrame(emitted), 1, landed};
+    };
+    std::vector<MapPhoton> photons;
+    for (const auto& sample : lattice(std::size_t(side), std::size_t(side)))
+        photons.push_back(on_disk(sample));
+    const Field field = field_of(photons, stratified());
+    const double s2 = straight_radius2();
+    for (const double radius : {0.75, 0.85, 0.92})
+        for (int i = 0; i < 64; ++i) {
+            // A point of the square that is mapped to this radius, next to a corner for every eighth one.
+            const double around = (i % 16 - 7.5) / 8 * 0.999;
+            const double a = (i & 16 ? 1 : -1) * radius, b = around * radius;
+            const std::array<double, 2> sample{0.5 + 0.5 * (i & 32 ? a : b), 0.5 + 0.5 * (i & 32 ? b : a)};
+            const DiskPoint<double> place = concentric_disk(sample[0], sample[1]);
+            CAPTURE(place.x);
+            CAPTURE(place.y);
+            const MapPhoton photon = on_disk(sample);
+            const auto here = field.at(photon.sample.at, photon.frame, photon.signature);
+            REQUIRE(here);
+            const Plane2 outwards{place.x / radius, place.y / radius};
+            const double expected = narrowed(s2, (1 - radius) * std::sqrt(all));
+            CHECK(inner(outwards, here->shape(outwards)) == doctest::Approx(expected).epsilon(0.15));
         }
 }
 

@@ -38,7 +38,7 @@ public:
     /// @param run     runs the fits; the field does not depend on it
     SheetField(const PathSamples& all, const EmissionSheets& sheets, const EmissionSheet& sheet,
                const FieldOptions& options, const TaskRunner& run)
-        : options_(options), density_{options.stratified, sheet.share},
+        : options_(options), density_{options.stratified, sheet.share}, aspect_(sheets.aspect()),
           grid_(places_of(all, sheet), sheets.aspect(), options.repeats,
                 photons_per_cell(options, sheet) * double(sheet.photons.size()) / (double(all.size()) * sheet.share)),
           slots_(grid_.size(), nowhere) {
@@ -75,7 +75,8 @@ public:
             return std::nullopt;
         FieldSample result{};
         VaryingShape shape;
-        const PlaneMatrix samples_by_place = (frame.axes_of(here->frame) * here->metric).inverse();
+        const PlaneMatrix& metric = here->metric_by_side[side_of(sample)];
+        const PlaneMatrix samples_by_place = (frame.axes_of(here->frame) * metric).inverse();
         for (const Node& node : nodes_about(sample)) {
             const Cell* there = cell_in(node.square);
             const Cell& cell = there != nullptr && there->is_resolved ? *there : *here;
@@ -109,8 +110,9 @@ private:
         std::size_t square;
         EmissionFrame frame{}; ///< of the photon nearest to the middle
         std::array<double, 2> frame_sample{};
-        double size2 = 0;      ///< of that photon's tangents
-        PlaneMatrix metric{};  ///< steps between samples to displacements in the frame
+        double size2 = 0;     ///< of that photon's tangents
+        PlaneMatrix metric{}; ///< steps between samples to displacements in the frame
+        std::array<PlaneMatrix, 2> metric_by_side{};
         PathDerivatives map{}; ///< at the middle
         Symmetric2 log_q{}, shape{};
         bool has_frame = false, is_resolved = false;
@@ -174,8 +176,45 @@ private:
         }
         if (solved && std::isfinite(nearest)) {
             cell.metric = *solved;
+            cell.metric_by_side = {metric_on_side(cell, photons, 0), metric_on_side(cell, photons, 1)};
             cell.has_frame = true;
         }
+    }
+
+    /// Which pair of the square's triangles a sample lies in. A concentric map of the square onto a disk has a kink along
+    /// its diagonals.
+    [[nodiscard]] static std::size_t side_of(const std::array<double, 2>& sample) {
+        return std::abs(sample[0] - 0.5) > std::abs(sample[1] - 0.5) ? 0 : 1;
+    }
+
+    /// The metric by those photons of a cell and of those around it that lie on one side of a diagonal; that of the cell
+    /// if no diagonal passes through it.
+    [[nodiscard]] PlaneMatrix metric_on_side(const Cell& cell, const PathSamples& photons, std::size_t side) const {
+        const auto is_here = [&](std::uint32_t i) { return side_of(photons[i].sample.at) == side; };
+        const auto inside = grid_.photons(cell.square);
+        if (std::all_of(inside.begin(), inside.end(), is_here) || std::none_of(inside.begin(), inside.end(), is_here))
+            return cell.metric;
+        Plane2 step_sum{}, place_sum{};
+        double weights = 0;
+        const auto for_each = [&](const auto& visit) {
+            for_each_around(cell, [&](const Cell& other, double weight) {
+                for (const std::uint32_t i : grid_.photons(other.square))
+                    if (is_here(i))
+                        visit(grid_.step_between(cell.frame_sample, photons[i].sample.at),
+                              cell.frame.to(photons[i].frame), weight);
+            });
+        };
+        for_each([&](Plane2 step, Plane2 place, double weight) {
+            step_sum = step_sum + weight * step;
+            place_sum = place_sum + weight * place;
+            weights += weight;
+        });
+        SampleMetric metric;
+        for_each([&](Plane2 step, Plane2 place, double weight) {
+            const double root = std::sqrt(weight), share = 1 / weights;
+            metric.add(root * (step + -share * step_sum), root * (place + -share * place_sum));
+        });
+        return metric.solve().value_or(cell.metric);
     }
 
     /// Fits the derivatives to the photons of this cell and those around it, weighted by a biweight about its middle.
@@ -374,13 +413,11 @@ private:
                                             {samples_by_place.first.y, samples_by_place.second.y}}};
         const std::array<double, 2> steepness{std::sqrt(inner(slopes[0], slopes[0])),
                                               std::sqrt(inner(slopes[1], slopes[1]))};
-        const auto nearer = [&](std::size_t axis) {
-            return (std::min)(sample[axis], 1 - sample[axis]) / steepness[axis];
-        };
         // Where the borders of the two samples do not meet at a right angle there is no corner: a disk's border is all
-        // four sides of the square, and the nearer of them is the one.
+        // four sides of the square, and the one is that of the triangle that the sample lies in.
         const double lean = std::abs(inner(slopes[0], slopes[1])) / (steepness[0] * steepness[1]);
-        const std::size_t nearest = nearer(0) <= nearer(1) ? 0 : 1;
+        const auto room = [&](std::size_t axis) { return (std::min)(sample[axis], 1 - sample[axis]); };
+        const std::size_t nearest = room(0) * aspect_ < room(1) ? 0 : 1;
         for (const std::size_t axis : {nearest, 1 - nearest}) {
             if (axis != nearest && lean > 0.3)
                 continue;
@@ -421,6 +458,7 @@ private:
 
     FieldOptions options_;
     PhotonDensity density_;
+    double aspect_; // of the domain: its length along the first sample over that along the second
     EmissionCells grid_;
     std::vector<std::uint32_t> slots_; // of each square: its cell, or nowhere
     std::vector<Cell> cells_;
