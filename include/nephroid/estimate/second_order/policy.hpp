@@ -37,8 +37,8 @@ struct FirstOrder {};
 struct SecondOrder {
     SmoothingBounds bounds{};
     double largest_shift =
-        0.11; ///< of the longer of the footprint's new tangents, halved; longer ones are shortened, and
-              ///< counted. Of it, what follows from footprints that change is a quarter at most
+        0.125; ///< of the longer of the footprint's new tangents, halved; longer ones are shortened, and
+               ///< counted. Of it, what follows from footprints that change is a quarter at most
     std::uint64_t pilot = 1u << 16; ///< the field is made from the pass's first photons, this many at most, >= 1
     bool domain_repeats = false; ///< the scene repeats over the light's patch (a tile of endless water, say), so that
                                  ///< opposite borders of the patch are neighbours; of no effect on area lights
