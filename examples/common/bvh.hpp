@@ -97,7 +97,7 @@ public:
     /// @param expect  `expect(leaf number)` is told of leaves that may be visited soon: for prefetching
     template <class Visit, class Expect>
     void traverse(const Ray<T>& ray, Visit&& visit, Expect&& expect) const {
-        if (nodes_.empty())
+        if (nodes_.empty() || !(dot(ray.direction, ray.direction) >= 0)) // absent children are no number either
             return;
         const Slabs slabs(ray);
         struct Pending {

@@ -47,6 +47,16 @@ static_assert(of_point.two && !of_point.four && !of_point.others);
 static_assert(of_laser.two && of_laser.four && of_laser.others); // it does not say
 static_assert(of_both.two && of_both.four && !of_both.others);
 static_assert(of_any.two && of_any.four && of_any.others);
+
+/// A renderer's own lights, whose `dimensions` mean their size and that of space.
+struct Panel : Laser {
+    D dimensions{1, 2, 0};
+};
+struct Spatial : Laser {
+    static constexpr int dimensions = 3;
+};
+static_assert(emission_domains<Panel>.two && emission_domains<Panel>.four && emission_domains<Panel>.others);
+static_assert(emission_domains<Spatial>.two && emission_domains<Spatial>.four && emission_domains<Spatial>.others);
 static_assert(may_draw(of_both, 4) && !may_draw(of_both, 3) && may_draw(of_any, 0));
 static_assert(Light<LightSet<Lights, Laser>>); // sets nest
 

@@ -202,6 +202,15 @@ TEST_CASE_TEMPLATE("bvh: over a user's own primitives the nearest hit is that of
     CHECK(hits > 50);
 }
 
+TEST_CASE("bvh: a ray whose direction is no number meets nothing") {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    const Bvh<float> bvh(std::vector<Box<float>>(100, Box<float>{{-1, -1, 1}, {1, 1, 2}}), 1);
+    bvh.traverse({{0, 0, 0}, {nan, nan, nan}}, [](std::uint32_t, float t_max) {
+        FAIL("visited");
+        return t_max;
+    });
+}
+
 TEST_CASE("bvh: a visitor ends the search by a distance below the ray's first") {
     Numbers numbers(4);
     const Bvh<float> bvh(std::vector<Box<float>>(100, Box<float>{{-1, -1, 1}, {1, 1, 2}}), 1);

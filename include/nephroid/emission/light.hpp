@@ -99,12 +99,13 @@ struct EmissionDomains {
     return dimensions == 2 ? domains.two : dimensions == 4 ? domains.four : domains.others;
 }
 
-/// Those of a light: by its `dimensions`, or, for a light of several, by its `domains`.
+/// Those of a light: by its `dimensions`, or, for a light of several, by its `domains`. Members of these names that mean
+/// something else are of another kind or type.
 template <class L>
 inline constexpr EmissionDomains emission_domains = [] {
-    if constexpr (requires { L::domains; })
+    if constexpr (requires { { &L::domains } -> std::same_as<const EmissionDomains*>; })
         return L::domains;
-    else if constexpr (requires { L::dimensions; })
+    else if constexpr (requires { { &L::dimensions } -> std::same_as<const std::uint32_t*>; })
         return EmissionDomains{L::dimensions == 2, L::dimensions == 4, L::dimensions != 2 && L::dimensions != 4};
     else
         return EmissionDomains{};

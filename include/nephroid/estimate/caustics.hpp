@@ -12,6 +12,15 @@
 #include "nephroid/estimate/second_order/pilot.hpp"
 #include "nephroid/estimate/traced_batch.hpp"
 
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
 namespace nephroid {
 
 namespace detail {
@@ -21,6 +30,7 @@ namespace detail {
 inline constexpr std::size_t chunks_per_batch = 64;
 inline constexpr std::size_t least_photons = 4 * chunks_per_batch, first_photons = 16 * chunks_per_batch,
                              most_photons = 1024 * chunks_per_batch;
+inline constexpr std::size_t most_watched = most_photons / 8; // where somebody waits to stop the pass
 inline constexpr std::size_t visits_per_batch = std::size_t(1) << 19, growth = 8;
 
 /// For photons that were traced before.
@@ -64,7 +74,8 @@ Statistics splat_in_batches(Splatter& splatter, const PhotonPass& pass, const Ad
             visits += chunks[c].visits();
         }
         const std::uint64_t fitting = (batch_end - done) * visits_per_batch / visits;
-        batch = std::clamp<std::uint64_t>((std::min)(fitting, growth * batch), least_photons, most_photons);
+        batch = std::clamp<std::uint64_t>((std::min)(fitting, growth * batch), least_photons,
+                                          pass.progress ? most_watched : most_photons);
         done = batch_end;
         if (pass.progress && !pass.progress(done))
             break;
@@ -124,8 +135,8 @@ Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, P
             pilot, pass, splatter.policies(), double(splatter.map().diagonal()), Sequence::stratified, executor);
         if constexpr (emission_domains<L>.others)
             if (!pass.smoothing)
-                footprints.smooth_others(
-                    detail::smoothing_without_cells(splatter, pilot, pass, Sequence::stratified, executor));
+                footprints.smooth_others(detail::smoothing_without_cells<decltype(footprints)>(
+                    splatter, pilot, pass, Sequence::stratified, executor));
         detail::TracedBatch<detail::traced_photon_t<L>> batch;
         return detail::splat_in_batches(
             splatter, pass,

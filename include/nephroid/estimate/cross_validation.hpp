@@ -195,11 +195,10 @@ template <class Splatter, class DepositOf, class E>
     return s_of(place) * std::pow(photons / double(count), 1 / (2 + order));
 }
 
-/// For the photons that have no neighbours to choose their footprints by (SecondOrderFootprints::has_cells).
-template <class Splatter, class Photon, class E>
+/// For the photons that have no neighbours to choose their footprints by (Footprints::has_cells).
+template <class Footprints, class Splatter, class Photon, class E>
 [[nodiscard]] double smoothing_without_cells(const Splatter& splatter, const Pilot<Photon>& pilot,
                                              const PhotonPass& pass, bool stratified, E& executor) {
-    using Footprints = SecondOrderFootprints<typename Splatter::vector>;
     const auto deposit_of = [&pilot](std::size_t i) {
         const Photon& photon = pilot.photons[i];
         return Footprints::has_cells(photon.sample) ? std::nullopt : photon.deposit;

@@ -4,6 +4,9 @@
 
 #include "nephroid/estimate/splat.hpp"
 
+#include <array>
+#include <limits>
+
 namespace nephroid::detail {
 
 /// What a leaf and a splat have to do with each other.
@@ -52,7 +55,8 @@ public:
 
 private:
     using t = vector_traits<V>;
-    static constexpr T rounding = T(64) * std::numeric_limits<T>::epsilon(); ///< of what is compared with 1
+    /// Of what is compared with 1: more than was ever seen, for compilers that fuse products and sums.
+    static constexpr T rounding = T(64) * std::numeric_limits<T>::epsilon();
 
     template <class Coordinate>
     [[nodiscard]] static std::array<T, 4> side_by_side(const Splat<V, F>& splat, const Coordinate& of) {

@@ -9,6 +9,7 @@
 #include "nephroid/estimate/traced_batch.hpp"
 
 #include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <vector>
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -64,8 +65,9 @@ private:
         const std::size_t had = blocks_.size(), want = (count + records_per_block - 1) / records_per_block;
         if (want <= had)
             return;
-        blocks_.resize(want);
-        executor(want - had, [&](std::size_t i) { blocks_[had + i].resize(records_per_block); });
+        std::vector<std::vector<Record>> blocks(want - had);
+        executor(blocks.size(), [&](std::size_t i) { blocks[i].resize(records_per_block); });
+        blocks_.insert(blocks_.end(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
     }
 
     /// Asks for a record's cache lines while its photon is on its way: they lie far from the last one's.

@@ -7,7 +7,10 @@
 #include <nanoflann.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 

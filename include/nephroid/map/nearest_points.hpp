@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -37,6 +38,8 @@ public:
     NearestPoints(std::size_t wanted, T limit2, std::size_t lanes)
         : wanted_(wanted), most_(wanted + (std::max)(wanted, 2 * lanes)), limit2_(limit2),
           unlimited_(!isfinite(limit2)) {
+        assert(!is_busy() && "nephroid: accept() looks up nearest points itself");
+        is_busy() = true;
         static thread_local std::vector<T> distances2; // these grow to the largest look-up, and stay
         static thread_local std::vector<std::uint32_t> slots;
         const std::size_t room = most_ + lanes;
@@ -47,6 +50,10 @@ public:
         distance2_ = distances2.data();
         slot_ = slots.data();
     }
+
+    ~NearestPoints() { is_busy() = false; }
+    NearestPoints(const NearestPoints&) = delete; // one at a time on a thread
+    NearestPoints& operator=(const NearestPoints&) = delete;
 
     /// Whether a point at this distance may be among the nearest.
     [[nodiscard]] bool wants(T distance2) const { return bool(int(distance2 < limit2_) | int(unlimited_)); }
@@ -90,6 +97,11 @@ public:
     }
 
 private:
+    [[nodiscard]] static bool& is_busy() {
+        static thread_local bool busy = false;
+        return busy;
+    }
+
     /// Keeps those wanted and `spare` others at most.
     void thin(std::size_t spare) {
         const T high = unlimited_ ? *std::max_element(distance2_, distance2_ + size_) : limit2_;

@@ -27,7 +27,9 @@
 #include "nephroid/estimate/second_order/area_border.hpp"
 #include "nephroid/estimate/second_order/area_fit.hpp"
 #include "nephroid/estimate/second_order/area_photons.hpp"
+#include "nephroid/estimate/second_order/bending.hpp"
 #include "nephroid/estimate/second_order/footprint_field.hpp"
+#include "nephroid/estimate/second_order/smoothing_rule.hpp"
 #include "nephroid/transport/executor.hpp"
 
 #include <algorithm>

@@ -14,6 +14,7 @@
 #include "nephroid/estimate/second_order/path_derivatives.hpp"
 #include "nephroid/vector/scalar.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

@@ -2,7 +2,7 @@
 /// @file  By how much a map bends that no smooth one fits: facets of a mesh, ripples smaller than a cell of photons.
 #pragma once
 
-#include "nephroid/estimate/second_order/smoothing_rule.hpp"
+#include "nephroid/estimate/second_order/bending.hpp"
 
 #include <limits>
 #include <span>

@@ -15,10 +15,16 @@
 #include "nephroid/estimate/second_order/area_field.hpp"
 #include "nephroid/estimate/second_order/footprint_field.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 namespace nephroid {
 

@@ -2,10 +2,16 @@
 /// @file  What the photons of one sheet say of one another: derivatives, shapes and borders over a light's domain.
 #pragma once
 
+#include "nephroid/estimate/second_order/bending.hpp"
 #include "nephroid/estimate/second_order/emission_sheets.hpp"
 #include "nephroid/estimate/second_order/roughness.hpp"
+#include "nephroid/estimate/second_order/smoothing_rule.hpp"
 #include "nephroid/estimate/second_order/varying_shape.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>

@@ -9,9 +9,11 @@
 /// tr(S Q) = 2 s² sqrt(det Q). That leaves a minimum over s alone.
 #pragma once
 
-#include "nephroid/estimate/second_order/bending.hpp"
 #include "nephroid/estimate/second_order/policy.hpp"
+#include "nephroid/vector/plane.hpp"
+#include "nephroid/vector/scalar.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid {
