@@ -161,12 +161,12 @@ TEST_CASE("sheet field: footprints reach as far as the domain's border and no fu
 TEST_CASE("sheet field: a disk's rim is as far as it is all around, the corners of the samples among it") {
     const auto on_disk = [](const std::array<double, 2>& sample) {
         const DiskPoint<double> at = concentric_disk(sample[0], sample[1]);
-        const double length = 2 * unit_of(all, pi<double>);
+        const double tangent = 2 * unit_of(all, pi<double>);
         const glm::dvec3 zero(0), place(at.x, at.y, 1);
         const Photon<glm::dvec3, double> emitted{
-            place, {0, 0, -1}, 1 / all, {Tangent<glm::dvec3>{{length, 0, 0}, zero}, {{0, length, 0}, zero}}};
+            place, {0, 0, -1}, 1 / all, {Tangent<glm::dvec3>{{tangent, 0, 0}, zero}, {{0, tangent, 0}, zero}}};
         const Deposit<glm::dvec3, double, 2> landed{
-            {at.x, at.y, 0}, {0, 0, 1}, {0, 0, -1}, emitted.flux, {{{length, 0, 0}, {0, length, 0}}}};
+            {at.x, at.y, 0}, {0, 0, 1}, {0, 0, -1}, emitted.flux, {{{tangent, 0, 0}, {0, tangent, 0}}}};
         return MapPhoton{{sample, 0, 2}, EmissionFrame(emitted), 1, landed};
     };
     std::vector<MapPhoton> photons;
