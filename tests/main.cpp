@@ -4,6 +4,8 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
+#include "support/is_sanitized.hpp"
+
 #include <cstdlib>
 #include <iostream>
 #include <set>
@@ -11,7 +13,7 @@
 
 namespace {
 
-bool anything_wrong = false;
+bool anything_wrong = false, nothing_run = false;
 
 void complain(const std::string& complaint) {
     std::cerr << "tests/main.cpp: " << complaint << '\n';
@@ -36,8 +38,10 @@ public:
     }
 
     void test_run_end(const doctest::TestRunStats& run) override {
-        if (run.numTestCasesPassingFilters == 0)
-            complain("no test matches");
+        if (run.numTestCasesPassingFilters == 0) {
+            std::cerr << "tests/main.cpp: no test matches\n";
+            nothing_run = true;
+        }
     }
 
     void test_run_start() override {}
@@ -58,5 +62,7 @@ REGISTER_LISTENER("watchman", 1, Watchman);
 
 int main(int argc, char** argv) {
     const int result = doctest::Context(argc, argv).run();
+    if (result == EXIT_SUCCESS && nothing_run) // with sanitizers some files leave all of theirs out: Meson's "skipped"
+        return nephroid::tests::is_sanitized ? 77 : EXIT_FAILURE;
     return result == EXIT_SUCCESS && anything_wrong ? EXIT_FAILURE : result;
 }
