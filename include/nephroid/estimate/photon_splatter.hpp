@@ -1,15 +1,23 @@
 // SPDX-License-Identifier: MIT
-/// @file  Splatting onto an eye path map: batches of photons, binned by leaf, each leaf summed by one thread.
+/// @file  Splatting onto an eye path map: batches of photons, binned by leaves, each summed by one thread.
 ///
-/// A leaf adds up its photons in the order of their indices whoever runs it, so that the sums are the same bit for
-/// bit for any number of threads, without atomics or locks, and its vertices stay in cache.
+/// Leaves lie in groups, and a group's photons are added up by one thread in the order of their indices, so that the sums
+/// are the same bit for bit for any number of threads, without atomics or locks, and its vertices stay in cache.
 #pragma once
 
 #include "nephroid/estimate/splat_reach.hpp"
 #include "nephroid/transport/executor.hpp"
 #include "nephroid/transport/sink.hpp"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace nephroid {
 
@@ -138,14 +146,10 @@ public:
     template <class E>
         requires Executor<E&>
     void add(std::span<const Chunk> chunks, E& executor) {
-        bin(chunks);
-        constexpr std::size_t leaves_per_task = 16;
-        const std::size_t leaves = map_->tree().leaves().size();
-        executor((leaves + leaves_per_task - 1) / leaves_per_task, [&](std::size_t task) {
-            const std::size_t end = (std::min)(leaves, (task + 1) * leaves_per_task);
-            for (std::size_t leaf = task * leaves_per_task; leaf < end; ++leaf)
-                for (std::size_t i = bin_begin_[leaf]; i < bin_begin_[leaf + 1]; ++i)
-                    splat_leaf(bins_[i], map_->tree().leaves()[leaf]);
+        bin(chunks, executor);
+        executor(groups(), [&](std::size_t group) {
+            for (std::size_t i = bin_begin_[group]; i < bin_begin_[group + 1]; ++i)
+                splat_leaf(bins_[i], map_->tree().leaves()[bins_[i].leaf]);
         });
     }
 
@@ -166,25 +170,52 @@ public:
     }
 
 private:
-    /// A splat that meets the leaf in whose bin it is.
+    /// A splat, and a leaf that it meets.
     struct Binned {
         const Splat<V, F>* splat;
+        std::uint32_t leaf;
         detail::LeafMeeting meeting;
     };
 
-    /// Sorts the chunks' splats by leaf, keeping the photons' order: a counting sort.
-    void bin(std::span<const Chunk> chunks) {
-        bin_begin_.assign(map_->tree().leaves().size() + 1, 0);
-        for (const Chunk& chunk : chunks)
-            for (const auto& visit : chunk.visits_)
-                ++bin_begin_[visit.leaf + 1];
-        for (std::size_t leaf = 1; leaf < bin_begin_.size(); ++leaf)
-            bin_begin_[leaf] += bin_begin_[leaf - 1];
-        bins_.resize(bin_begin_.back());
-        bin_end_ = bin_begin_;
-        for (const Chunk& chunk : chunks)
-            for (const auto& visit : chunk.visits_)
-                bins_[bin_end_[visit.leaf]++] = {&chunk.splats_[visit.number], visit.meeting};
+    /// How many neighbouring leaves one thread sums up together, as a power of two: four, which stay in the nearest cache,
+    /// or what makes 4096 groups at most, as sixteen parts of a batch count their visits to each.
+    [[nodiscard]] unsigned group_bits() const {
+        return (std::max)(2u, unsigned(std::bit_width(map_->tree().leaves().size() >> 12)));
+    }
+
+    [[nodiscard]] std::size_t groups() const { return (map_->tree().leaves().size() >> group_bits()) + 1; }
+
+    /// Sorts the chunks' visits by group, keeping the photons' order: a counting sort, of which 16 parts count and move
+    /// their visits at the same time. More would take longer to add up than they save.
+    template <class E>
+    void bin(std::span<const Chunk> chunks, E& executor) {
+        constexpr std::size_t parts = 16;
+        const std::size_t count = groups(), chunks_per_part = (chunks.size() + parts - 1) / parts;
+        const unsigned bits = group_bits();
+        const auto for_each_visit = [&](std::size_t part, const auto& work) {
+            const std::size_t end = (std::min)(chunks.size(), (part + 1) * chunks_per_part);
+            for (std::size_t chunk = part * chunks_per_part; chunk < end; ++chunk)
+                for (const auto& visit : chunks[chunk].visits_)
+                    work(next_[part * count + (visit.leaf >> bits)], visit, chunks[chunk]);
+        };
+        next_.assign(parts * count, 0);
+        executor(parts, [&](std::size_t part) {
+            for_each_visit(part, [](std::size_t& visits, const auto&, const Chunk&) { ++visits; });
+        });
+        bin_begin_.resize(count + 1);
+        std::size_t sum = 0;
+        for (std::size_t group = 0; group < count; ++group) {
+            bin_begin_[group] = sum;
+            for (std::size_t part = 0; part < parts; ++part)
+                sum += std::exchange(next_[part * count + group], sum);
+        }
+        bin_begin_[count] = sum;
+        bins_.resize(sum);
+        executor(parts, [&](std::size_t part) {
+            for_each_visit(part, [this](std::size_t& next, const auto& visit, const Chunk& chunk) {
+                bins_[next++] = {&chunk.splats_[visit.number], visit.leaf, visit.meeting};
+            });
+        });
     }
 
     /// Adds one photon to the vertices of one leaf.
@@ -241,8 +272,9 @@ private:
     Policies policies_;
     Response response_;
     std::vector<F> sums_; // by slot
-    std::vector<std::size_t> bin_begin_, bin_end_;
     std::vector<Binned> bins_;
+    std::vector<std::size_t> bin_begin_; // of each group in the bins, and their end
+    std::vector<std::size_t> next_;      // by part of the batch, then group: where its next visit goes
 };
 
 } // namespace nephroid
