@@ -84,9 +84,9 @@ TEST_CASE_TEMPLATE("splat reach: no leaf is left out that has a vertex in the sp
     CHECK(unchecked > 100);
 }
 
-// A needle's rows are as long as its width is small, so that at a vertex far along it terms of 3000 cancel to the 1 that is
-// compared: they round by a thousandth, elsewhere in a leaf otherwise than at its vertices. Each leaf here is two vertices
-// that lie at the needle's border, a few roundings apart, and by what is computed for themselves some are just inside.
+// A needle's rows are as long as its width is small, so that at a vertex far along it terms of 3000 cancel to the 1 that
+// is compared: they round by a thousandth, elsewhere in a leaf otherwise than at its vertices. Each leaf here is two
+// vertices at the needle's border, a few roundings apart, and by what is computed for themselves some are just inside.
 TEST_CASE_TEMPLATE("splat reach: rounding along a needle leaves out no vertex", T, float, double) {
     using V = Vec<T>;
     constexpr double epsilon = double(std::numeric_limits<T>::epsilon());

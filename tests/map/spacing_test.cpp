@@ -76,8 +76,8 @@ TEST_CASE("point spacing: of a stretched lattice is between its two sides") {
 }
 
 // The four in the middle of an 8 x 8 lattice are asked, and their median counts. With a neighbour gone, one of them says
-// (12 − 2 + 4) / 12 and three say 1. With a stray beside it at (−0.1, −0.1), which takes the place of a neighbour at √2, it
-// says (12 − 2 + 0.02) / 12, the two next to it, for which the stray is at √1.22, (12 − 2 + 1.22) / 12, and the fourth 1.
+// (12 − 2 + 4) / 12 and three say 1. With a stray at (−0.1, −0.1) from it, in the place of a neighbour at √2, it says
+// (12 − 2 + 0.02) / 12, the two next to it, with the stray at √1.22, (12 − 2 + 1.22) / 12, and the fourth 1.
 TEST_CASE_TEMPLATE("point spacing: a hole or a stray beside the middle is outvoted", T, float, double) {
     const auto without = [](double x, double y) {
         Points<T> points;

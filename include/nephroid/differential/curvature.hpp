@@ -141,7 +141,8 @@ interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const 
     const V d1 = n1 - n0, d2 = n2 - n0;
     const V normal = n0 + (b1 * d1 + b2 * d2);
     const T face2 = length2(face), normal2 = length2(normal);
-    // Below the smallest normal number a square has lost its digits, and its inverse overflows; as far above 1 that one does.
+    // Below the smallest normal number a square has lost its digits and its inverse overflows; from that one's inverse on
+    // it is the inverse that has lost them.
     const T least = (std::numeric_limits<T>::min)(), most = T(1) / least;
     if (!(face2 >= least && face2 <= most && normal2 >= least && normal2 <= most))
         return std::nullopt;
@@ -172,7 +173,8 @@ template <Vector3 V>
     const V e1 = p1 - p0, e2 = p2 - p0;
     if (const auto curvature = detail::interpolated_in_range(e1, e2, n0, n1, n2, b1, b2))
         return *curvature;
-    // The same triangle in a unit of its own, and its normals: their length does not matter, the gradients' is its inverse.
+    // The same triangle and its normals in units of their own: what the normals are long does not matter, and the
+    // gradients are in the inverse of the edges' unit.
     const T s = detail::to_unit(e1, e2, e1), n = detail::to_unit(n0, n1, n2);
     auto curvature = detail::interpolated_in_range<V>(s * e1, s * e2, n * n0, n * n1, n * n2, b1, b2);
     if (!curvature)
