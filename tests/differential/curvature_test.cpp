@@ -324,9 +324,9 @@ TEST_CASE_TEMPLATE("interpolated_normals: a triangle without area and a vanishin
     });
 }
 
-// Powers of two: no rounding until something underflows, and then it is a triangle without area, or a normal without
-// length.
-TEST_CASE_TEMPLATE("interpolated_normals: a tiny triangle is scaled exactly or counts as none", T, float, double) {
+// Powers of two: no rounding, from the smallest normal number to the largest. Below it is a triangle without area, or a
+// normal without length.
+TEST_CASE_TEMPLATE("interpolated_normals: a triangle and its normals may have any size", T, float, double) {
     tests::for_each_vector<T>([]<class V>() {
         const auto turned = [](T s, T n) {
             const auto curvature = interpolated_normals(
@@ -334,13 +334,17 @@ TEST_CASE_TEMPLATE("interpolated_normals: a tiny triangle is scaled exactly or c
                 make_vector<V>(n, 0, n), make_vector<V>(0, n, n), T(0.25), T(0.5));
             return curvature(make_vector<V>(T(0.5) * s, T(0.25) * s, 0));
         };
+        using Limits = std::numeric_limits<T>;
         const Space expected = tests::widen(turned(1, 1));
+        REQUIRE(expected.length() > Wide(0.1));
         int none = 0;
-        for (int k = 1; k < std::numeric_limits<T>::digits - std::numeric_limits<T>::min_exponent; k += 3) {
-            for (const V& found : {turned(std::ldexp(T(1), -k), 1), turned(1, std::ldexp(T(1), -k))}) {
-                const bool zero = tests::distance(found, Space{0, 0, 0}) == 0;
-                CHECK((zero || tests::distance(found, expected) == 0));
-                none += zero ? 1 : 0;
+        for (int exponent = Limits::min_exponent - Limits::digits; exponent < Limits::max_exponent; ++exponent) {
+            const T size = std::ldexp(T(1), exponent);
+            CAPTURE(exponent);
+            for (const V& found : {turned(size, 1), turned(1, size)}) {
+                const bool vanishes = size < Limits::min();
+                CHECK(tests::distance(found, vanishes ? Space{0, 0, 0} : expected) == 0);
+                none += vanishes ? 1 : 0;
             }
         }
         CHECK(none > 0);

@@ -357,7 +357,7 @@ TEST_CASE("caustics: other photons make another picture") {
 TEST_CASE("caustics: the callback hears of the progress and can stop it") {
     const auto vertices = floor_of<float>(16, 0, 1);
     const auto map = map_of(vertices);
-    constexpr std::uint64_t count = 200000;
+    constexpr std::uint64_t count = 20000;
     std::vector<std::uint64_t> heard;
     PhotonPass pass{.count = count, .smoothing = 4};
     pass.progress = [&](std::uint64_t done) {

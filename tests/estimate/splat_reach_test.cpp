@@ -7,7 +7,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 using namespace nephroid;
 using tests::Draws;
@@ -78,6 +82,93 @@ TEST_CASE_TEMPLATE("splat reach: no leaf is left out that has a vertex in the sp
     CHECK(wrong == 0);
     CHECK(left_out > 1000);
     CHECK(unchecked > 100);
+}
+
+// A needle's rows are as long as its width is small, so that at a vertex far along it terms of 3000 cancel to the 1 that
+// is compared: they round by a thousandth, elsewhere in a leaf otherwise than at its vertices. Each leaf here is two
+// vertices at the needle's border, a few roundings apart, and by what is computed for themselves some are just inside.
+TEST_CASE_TEMPLATE("splat reach: rounding along a needle leaves out no vertex", T, float, double) {
+    using V = Vec<T>;
+    constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
+    Draws draw(2);
+    int wrong = 0, inside = 0, low = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const tests::Space along = draw.direction(), across = draw.direction().across(along).unit();
+        const tests::Space centre = tests::Wide(10) * draw.in_cube();
+        const V row = tests::narrow<V>(tests::Wide(1e3) * across), normal = tests::narrow<V>(along.cross(across));
+        const Splat<V, T> splat{.centre = tests::narrow<V>(centre),
+                                .row_a = row,
+                                .row_b = tests::narrow<V>(tests::Wide(1e-12) * along),
+                                .row_n = row,
+                                .normal = normal,
+                                .direction = -normal,
+                                .peak = 1,
+                                .box = {}};
+        const auto at_border = [&] {
+            const double beside = 1e-3 * (1 + draw.in(-1e4, 1e4) * epsilon);
+            return tests::narrow<V>(centre + tests::Wide(3) * along + tests::Wide(beside) * across +
+                                    tests::Wide(4 * epsilon) * draw.in_cube());
+        };
+        const std::array<V, 2> vertices{at_border(), at_border()};
+        EyePathLeaf<T> leaf{};
+        for (int axis = 0; axis < 3; ++axis) { // as the map does
+            const auto [least, most] = std::minmax(vertices[0][axis], vertices[1][axis]);
+            leaf.middle[std::size_t(axis)] = T(0.5) * least + T(0.5) * most;
+            leaf.half[std::size_t(axis)] =
+                std::max(most - leaf.middle[std::size_t(axis)], leaf.middle[std::size_t(axis)] - least);
+            leaf.normal[std::size_t(axis)] = normal[axis];
+        }
+        const detail::LeafMeeting meeting = detail::SplatReach<V, T>(splat)(leaf);
+        for (const V& vertex : vertices) {
+            const V d = vertex - splat.centre;
+            const bool is_inside = square(dot(splat.row_a, d)) + square(dot(splat.row_b, d)) < T(1);
+            const bool is_low = std::abs(dot(splat.row_n, d)) < T(1);
+            wrong += (is_inside && !meeting.meets) || (!is_low && !meeting.checks_height);
+            inside += is_inside, low += is_low;
+        }
+    }
+    CHECK(wrong == 0);
+    for (const int some : {inside, low}) {
+        CHECK(some > 10000);
+        CHECK(some < 30000);
+    }
+}
+
+// Normals that differ by little, all but across the photon's: the ones that face it do so by a rounding.
+TEST_CASE_TEMPLATE("splat reach: rounding of normals at right angles to the photon leaves out no vertex", T, float,
+                   double) {
+    using V = Vec<T>;
+    constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
+    Draws draw(3);
+    int wrong = 0, facing = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const tests::Space n = draw.direction(), axis = draw.direction().across(n).unit();
+        const auto nearly = [&](double by) {
+            return tests::narrow<V>((n + tests::Wide(by * epsilon) * draw.in_cube()).unit());
+        };
+        const double spread = i % 2 == 0 ? 4 : 1000;
+        const std::array<Vertex<T>, 2> vertices{Vertex<T>{V(0), nearly(spread)}, {V(0), nearly(spread)}};
+        const EyePathMap<V> map(vertices, &Vertex<T>::position, &Vertex<T>::normal);
+        const V normal = tests::narrow<V>((axis + tests::Wide(draw.in(-1, 1) * spread * epsilon) * n).unit());
+        const V row = tests::narrow<V>(n); // the vertices are its centre
+        const Splat<V, T> splat{.centre = V(0),
+                                .row_a = row,
+                                .row_b = row,
+                                .row_n = row,
+                                .normal = normal,
+                                .direction = -normal,
+                                .peak = 1,
+                                .box = {}};
+        const detail::LeafMeeting meeting = detail::SplatReach<V, T>(splat)(map.leaf(0));
+        for (std::size_t slot = 0; slot < 2; ++slot) {
+            const bool faces = dot(V(map.normal_x()[slot], map.normal_y()[slot], map.normal_z()[slot]), normal) > T(0);
+            wrong += faces ? !meeting.meets : meeting.meets && !meeting.checks_normals;
+            facing += faces;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(facing > 10000);
+    CHECK(facing < 30000);
 }
 
 // Two walls of a corner: a photon on one has nothing to do with the other, and where it shines along a flat leaf no vertex

@@ -5,6 +5,7 @@
 #include "common/compare/tables.hpp"
 #include "common/image/pfm.hpp"
 #include "common/image/png.hpp"
+#include "support/is_sanitized.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -157,7 +158,7 @@ TEST_CASE("compare: every method makes the same picture from stored photons as f
     for (const char* scene : {"wave-focused", "ring"}) {
         CompareOptions options = small(scene);
         const Bench bench(options);
-        const Photons photons = bench.trace(SequenceKind::halton, 2000);
+        const Photons photons = bench.trace(SequenceKind::halton, is_sanitized ? 500 : 2000);
         for (const Method& listed : methods()) {
             std::vector<Method> settings = listed.settings;
             settings.push_back(listed);

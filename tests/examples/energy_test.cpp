@@ -2,6 +2,7 @@
 // What a picture's pixels add up to, against the flux of the photons that were splatted whole onto the film: over all
 // exact cases, footprints from far below a pixel to half the film.
 #include "common/builtin_cases.hpp"
+#include "support/is_sanitized.hpp"
 
 #include "nephroid/emission/sequence/halton.hpp"
 #include "nephroid/estimate/caustics.hpp"
@@ -17,6 +18,7 @@
 
 using namespace nephroid;
 using namespace nephroid::examples;
+using nephroid::tests::is_sanitized;
 
 namespace {
 
@@ -82,7 +84,8 @@ struct Energy {
 // A splat of the filter's least size gains or loses up to 0.43 of its flux with where it lies between the pixels
 // (1.43 at a vertex: the biweight's peak over 0.816²); over many places that averages out. A tenth of the ball's light
 // falls within one pixel of its axis, at 64 x 64: 0.043 if all of it were off the same way. A hundredth says that it is not.
-TEST_CASE("energy: with the pixel filter a picture keeps its photons' flux to a hundredth in the worst case") {
+TEST_CASE("energy: with the pixel filter a picture keeps its photons' flux to a hundredth in the worst case" *
+          doctest::skip(is_sanitized)) {
     for (const std::string_view name : builtin_case_names)
         for (const std::size_t size : {64u, 256u})
             for (const double smoothing : {1.0, 5.0, 20.0}) {
@@ -100,7 +103,8 @@ TEST_CASE("energy: with the pixel filter a picture keeps its photons' flux to a 
 
 // At 1.244 times the width the biweight's Fourier transform, J3(k)/k³, has its first zero at the pixels' frequency:
 // k = 2 pi 1.244 0.8165 = 6.380. What is left is the ripple along the diagonals, an order of magnitude less.
-TEST_CASE("energy: a filter at the zero of the kernel's transform keeps the flux ten times better") {
+TEST_CASE("energy: a filter at the zero of the kernel's transform keeps the flux ten times better" *
+          doctest::skip(is_sanitized)) {
     double plain = 0, wide = 0;
     for (const std::string_view name : {"ball", "ball-point", "ring"}) {
         const auto scene = builtin_case<float, float>(name, false);

@@ -254,6 +254,40 @@ TEST_CASE_TEMPLATE("mesh: the shading normal changes as the curvature says", T, 
     }
 }
 
+// A power of two changes no digit of a vertex, nor of what is computed in double; the curvature's are those of T, of
+// quantities of order one.
+TEST_CASE_TEMPLATE("mesh: a globe may be 1e-15 or 1e15 in size", T, float, double) {
+    const MeshData<T> data = globe<T>(12, 0.05);
+    const TriangleMesh<T> mesh(data);
+    for (const int exponent : {-50, -30, 30, 43, 50}) {
+        const T size = std::ldexp(T(1), exponent);
+        MeshData<T> sized = data;
+        for (Vec3<T>& p : sized.positions)
+            p = size * p;
+        const TriangleMesh<T> same(sized);
+        CAPTURE(exponent);
+        Numbers numbers(13);
+        for (int i = 0; i < 300; ++i) {
+            const Vec3<T> origin = numbers.point<T>(-0.3, 0.3), direction = numbers.direction<T>();
+            const Ray<T> ray{origin, direction}, sized_ray{size * origin, direction};
+            const auto expected = mesh.nearest(ray, infinity), found = same.nearest(sized_ray, infinity);
+            REQUIRE(expected.has_value());
+            REQUIRE(found.has_value());
+            CHECK(found->primitive == expected->primitive);
+            CHECK(found->distance == std::ldexp(expected->distance, exponent));
+            CHECK(same.nearest(sized_ray, 1.001 * found->distance).has_value());
+            CHECK(!same.nearest(sized_ray, 0.999 * found->distance));
+            const Hit<T> hit = mesh.hit(ray, *expected), sized_hit = same.hit(sized_ray, *found);
+            CHECK(sized_hit.position == size * hit.position);
+            CHECK(sized_hit.shading_normal == hit.shading_normal);
+            const Vec3<T> dx = nephroid::frame_about(hit.geometric_normal).u;
+            const RealVec3 change(hit.curvature(dx)), sized_change(sized_hit.curvature(size * dx));
+            CHECK(norm(change) > Real(0.1));
+            CHECK(norm(sized_change - change) < 100 * Real(std::numeric_limits<T>::epsilon()));
+        }
+    }
+}
+
 TEST_CASE_TEMPLATE("mesh: vertex normals against the winding are turned to the geometric side", T, float, double) {
     MeshData<T> data = globe<T>(12);
     const TriangleMesh<T> outward(data);

@@ -6,6 +6,7 @@
 #include "common/relaxation/pictures.hpp"
 #include "common/relaxation/table.hpp"
 #include "support/gltf_writer.hpp"
+#include "support/is_sanitized.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -275,7 +276,8 @@ TEST_CASE("relaxation: a file's photons are moved on its surfaces") {
     CHECK(std::filesystem::exists(folder / "after-20.png"));
 }
 
-TEST_CASE("relaxation: the test pattern is less noisy with 20 neighbours, and holding its edges keeps them narrow") {
+TEST_CASE("relaxation: the test pattern is less noisy with 20 neighbours, and holding its edges keeps them narrow" *
+          doctest::skip(is_sanitized)) {
     ThreadExecutor threads(1);
     relaxation::Options options = small("ellipse-and-bars");
     options.photons = 8000;

@@ -2,14 +2,17 @@
 #include "nephroid/map/eye_path_map.hpp"
 
 #include "support/foreign_vectors.hpp"
+#include "support/space.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <deque>
+#include <limits>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 using namespace nephroid;
 
@@ -232,4 +235,34 @@ TEST_CASE("eye path map: no normal is further from the middle of its leaf's than
         CHECK(largest <= known.spread * (1 + 1e-6f));
         CHECK(known.spread < 2 * largest); // a leaf of 50 in 2000 is a twentieth of a ball: its bounds' corner is near
     }
+}
+
+// A vertex at one end of a leaf is asked about through the leaf's middle, which is rounded: by as much as a millionth of
+// its distance from the origin, where the leaf itself may be smaller than that.
+TEST_CASE_TEMPLATE("eye path map: no vertex lies outside of its leaf, far from the origin either", T, float, double) {
+    using V = glm::vec<3, T>;
+    struct Vertex {
+        V position, normal;
+    };
+    tests::Draws draw(9);
+    std::vector<Vertex> vertices;
+    for (int cluster = 0; cluster < 100; ++cluster) {
+        const tests::Space middle = tests::Wide(1000) * draw.in_cube();
+        for (int i = 0; i < 40; ++i) {
+            const double size = 64 * double(std::numeric_limits<T>::epsilon()) * 1000;
+            vertices.push_back({tests::narrow<V>(middle + tests::Wide(size) * draw.in_cube()), {0, 0, 1}});
+        }
+    }
+    const EyePathMap<V> map(vertices, &Vertex::position, &Vertex::normal);
+    const PointTree<V>& tree = map.tree();
+    int outside = 0;
+    for (std::uint32_t number = 0; number < tree.leaves().size(); ++number) {
+        const auto& leaf = map.leaf(number);
+        const TreeLeaf range = tree.leaves()[number];
+        for (std::size_t slot = range.first; slot < range.first + range.size; ++slot)
+            outside += std::abs(tree.x()[slot] - leaf.middle[0]) > leaf.half[0] ||
+                       std::abs(tree.y()[slot] - leaf.middle[1]) > leaf.half[1] ||
+                       std::abs(tree.z()[slot] - leaf.middle[2]) > leaf.half[2];
+    }
+    CHECK(outside == 0);
 }

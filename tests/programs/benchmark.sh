@@ -6,14 +6,7 @@ set -eu
 benchmark=$1/benchmark
 [ -x "$benchmark" ] || benchmark=$1/benchmarks # as Meson builds it
 [ -x "$benchmark" ] || exit 77
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
-
-fail() {
-    echo "FAILED: $*" >&2
-    exit 1
-}
+. "$(dirname "$0")/shared"
 
 "$benchmark" matrix relax --seconds 0.001 --repetitions 1 >table.txt 2>errors.txt
 [ ! -s errors.txt ] || fail "$(cat errors.txt)"

@@ -5,19 +5,14 @@
 set -eu
 compare=$1/compare
 [ -x "$compare" ] || exit 77
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
+. "$(dirname "$0")/shared"
 
-fail() {
-    echo "FAILED: $*" >&2
-    exit 1
-}
-
-"$compare" wave-prefocal --photons 2000,1000 --size 64 --methods splat,nearest --threads 2 --repeats 2 --output out \
+many=2000 few=1000 few_in_words="1 000" size=64
+! is_sanitized || many=400 few=200 few_in_words=200 size=32
+"$compare" wave-prefocal --photons $many,$few --size $size --methods splat,nearest --threads 2 --repeats 2 --output out \
     --html report.html >out.txt 2>errors.txt || fail "the small comparison: $(cat errors.txt)"
 [ ! -s errors.txt ] || fail "words on stderr: $(cat errors.txt)"
-for words in "Equal error: splatting with halton, rivals with random" "Equal time: 1 000 halton" "Convergence"; do
+for words in "Equal error: splatting with halton, rivals with random" "Equal time: $few_in_words halton" "Convergence"; do
     grep -q "$words" out.txt || fail "no '$words' among the tables"
 done
 
@@ -42,7 +37,7 @@ for measure in rel RMSE SSIM; do
         fail "the best by $measure is not the best"
 done
 # Stratified photons, differentials: the order that this case is known to have.
-rel() { awk -F, -v s=$1 -v m=$2 '$2 == s && $3 == m && $4 == 2000 && $13 ~ /rel/ { print $9 }' $csv; }
+rel() { awk -F, -v s=$1 -v m=$2 -v n=$many '$2 == s && $3 == m && $4 == n && $13 ~ /rel/ { print $9 }' $csv; }
 order="$(rel halton splat) < $(rel random splat) && $(rel random splat) < $(rel random nearest)"
 awk "BEGIN { exit !($order) }" </dev/null ||
     fail "splatting is not ahead of photon mapping"
@@ -50,7 +45,7 @@ awk "BEGIN { exit !($order) }" </dev/null ||
 grep -q '"trials": \[' out/results.json || fail "no trials in the JSON"
 [ "$(tr -cd '{[' <out/results.json | wc -c)" -eq "$(tr -cd '}]' <out/results.json | wc -c)" ] ||
     fail "the JSON is not balanced"
-for picture in reference splat-halton-1000-RMSE nearest-random-2000-SSIM strip-halton-SSIM; do
+for picture in reference splat-halton-$few-RMSE nearest-random-$many-SSIM strip-halton-SSIM; do
     [ -s out/pictures/$picture.png ] || fail "no picture $picture.png"
 done
 
@@ -79,7 +74,7 @@ grep -q "gnuplot is missing" out.txt || fail "not a word about the plots that ar
 [ ! -s errors.txt ] || fail "words on stderr without gnuplot: $(cat errors.txt)"
 
 # A reference of the user's own: the exact picture's stand-in, with a standard error.
-"$1/caustics" wave-prefocal --photons 30000 --size 32 --output mean.pfm >/dev/null
+"$1/caustics" wave-prefocal --photons $((15 * many)) --size 32 --output mean.pfm >/dev/null
 "$compare" wave-prefocal --photons 1000 --size 32 --sequence halton --methods splat --reference mean.pfm \
     --standard-error mean.pfm --output out >/dev/null 2>errors.txt || fail "a reference: $(cat errors.txt)"
 grep -q '"reference": "mean.pfm"' out/results.json || fail "the reference is not named in the JSON"

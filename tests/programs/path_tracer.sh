@@ -5,24 +5,19 @@
 set -eu
 tracer=$1/reference_path_tracer
 [ -x "$tracer" ] || exit 77
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
+. "$(dirname "$0")/shared"
 
-fail() {
-    echo "FAILED: $*" >&2
-    exit 1
-}
-
+columns=24 rows=20
+! is_sanitized || columns=6 rows=5
 for threads in 1 3; do
-    "$tracer" ring-disk --size 24x20 --samples 64 --threads $threads --output mean$threads.pfm \
+    "$tracer" ring-disk --size ${columns}x$rows --samples 64 --threads $threads --output mean$threads.pfm \
         --standard-error se$threads.pfm >out.txt 2>errors.txt || fail "ring-disk: $(cat errors.txt)"
     [ ! -s errors.txt ] || fail "ring-disk: $(cat errors.txt)"
     grep -q "64 paths a pixel" out.txt || fail "does not say how many paths: $(cat out.txt)"
 done
 cmp mean1.pfm mean3.pfm && cmp se1.pfm se3.pfm || fail "the picture depends on the number of threads"
-# 24 × 20 floats behind the header.
-[ "$(head -n 2 mean1.pfm | tail -n 1)" = "24 20" ] || fail "the wrong size: $(head -n 2 mean1.pfm | tail -n 1)"
+# So many floats behind the header.
+[ "$(head -n 2 mean1.pfm | tail -n 1)" = "$columns $rows" ] || fail "the wrong size: $(head -n 2 mean1.pfm | tail -n 1)"
 "$tracer" ring-disk-zoom --size 8 --samples 1e9 --seconds 0 --output zoom.png >out.txt || fail "ring-disk-zoom"
 grep -q "^32 paths a pixel" out.txt || fail "--seconds does not end it: $(cat out.txt)"
 

@@ -9,15 +9,9 @@ root=$(cd "$(dirname "$0")/../.." && pwd)
 cxx=${CXX:-g++}
 command -v valgrind >/dev/null && command -v "$cxx" >/dev/null && command -v nm >/dev/null || exit 77
 [ -e "/usr/include/glm/vec3.hpp" ] || [ -n "${CPATH:-}" ] || exit 77
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
+. "$(dirname "$0")/shared"
+! is_sanitized || exit 77 # it compiles for itself, so there is nothing new to see
 flags="-std=c++20 -DNDEBUG -I$root/include"
-
-fail() {
-    echo "FAILED: $*" >&2
-    exit 1
-}
 
 # Sets bytes, deposited_bytes, emission, walk (instructions) and seconds of a variant.
 measure() { # its macro, or -DNONE

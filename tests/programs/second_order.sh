@@ -5,16 +5,12 @@
 set -eu
 second_order=$1/second_order
 [ -x "$second_order" ] || exit 77
-scratch=$(mktemp -d)
-trap 'rm -rf "$scratch"' EXIT
-cd "$scratch"
+. "$(dirname "$0")/shared"
 
-fail() {
-    echo "FAILED: $*" >&2
-    exit 1
-}
-
-"$second_order" --cases wave-prefocal,ring --photons 2000,8000 --size 64 --csv figures.csv >tables.md 2>errors.txt ||
+photons=2000,8000 size=64
+! is_sanitized || photons=200,400 size=32
+"$second_order" --cases wave-prefocal,ring --photons $photons --size $size --csv figures.csv \
+    >tables.md 2>errors.txt ||
     fail "$(cat errors.txt)"
 for title in "Equal photons" "Equal time" "Convergence"; do
     grep -q "^$title" tables.md || fail "no table '$title'"
@@ -24,8 +20,9 @@ done
 [ "$(grep -c '^wave-prefocal\|^ring' figures.csv)" -eq 72 ] || fail "$(wc -l <figures.csv) rows"
 awk -F, 'NR > 1 && (NF != 14 || !($8 > 0) || !($9 > 0)) { exit 1 }' figures.csv || fail "a row is not as the header says"
 # Second order is ahead of first order at its best s: 0.27 on this case with 5,000 photons.
-awk -F'|' '$2 ~ /wave-prefocal/ && $3 ~ /halton/ { split($4, ratio, "/"); exit !(ratio[1] > 0 && ratio[1] < 0.6) }' \
-    tables.md || fail "wave-prefocal: $(cat tables.md)"
+is_sanitized ||
+    awk -F'|' '$2 ~ /wave-prefocal/ && $3 ~ /halton/ { split($4, ratio, "/"); exit !(ratio[1] > 0 && ratio[1] < 0.6) }' \
+        tables.md || fail "wave-prefocal: $(cat tables.md)"
 
 refuses() { # words in the message, arguments
     words=$1

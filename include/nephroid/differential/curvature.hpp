@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <variant>
 
 namespace nephroid {
@@ -68,6 +69,15 @@ template <Vector3 V>
     return {make_vector<V>(k, zero, zero), make_vector<V>(zero, k, zero), make_vector<V>(zero, zero, k)};
 }
 
+namespace detail {
+template <Vector3 V>
+[[nodiscard]] scalar_t<V> largest_component(const V& d) {
+    using t = vector_traits<V>;
+    using T = scalar_t<V>;
+    return (std::max)({T(abs(T(t::x(d)))), T(abs(T(t::y(d)))), T(abs(T(t::z(d))))});
+}
+} // namespace detail
+
 /// A surface of parameters u, v with derivatives of position and of the (unit) shading normal, as pbrt and Mitsuba
 /// hits carry them. dx = a dpdu + b dpdv is solved in the least-squares sense.
 template <Vector3 V>
@@ -101,15 +111,11 @@ private:
 
     /// The same surface in parameters of about the unit of length, for parameters so small that squares overflow.
     [[nodiscard]] ParametricCurvature in_range() const {
-        const auto scale = [](const V& d) { return scalar_t<V>(1) / (std::max)(scalar_t<V>(1), largest_component(d)); };
+        const auto scale = [](const V& d) {
+            return scalar_t<V>(1) / (std::max)(scalar_t<V>(1), detail::largest_component(d));
+        };
         const scalar_t<V> u = scale(dpdu), v = scale(dpdv);
         return {u * dpdu, v * dpdv, u * dndu, v * dndv};
-    }
-
-    [[nodiscard]] static scalar_t<V> largest_component(const V& d) {
-        using t = vector_traits<V>;
-        using T = scalar_t<V>;
-        return (std::max)({T(abs(T(t::x(d)))), T(abs(T(t::y(d)))), T(abs(T(t::z(d))))});
     }
 };
 
@@ -117,13 +123,43 @@ private:
 /// dn = (I − n nᵀ)(Σ dbᵢ nᵢ)/|N|. Made by `interpolated_normals`.
 template <Vector3 V>
 struct InterpolatedCurvature {
-    V gradient_1, gradient_2;  ///< of the barycentric coordinates b1 and b2, 1 / length
-    V d_normal_1, d_normal_2;  ///< (n1 − n0)/|N| and (n2 − n0)/|N|, normal component removed
+    V gradient_1, gradient_2; ///< of the barycentric coordinates b1 and b2, 1 / length
+    V d_normal_1, d_normal_2; ///< (n1 − n0)/|N| and (n2 − n0)/|N|, normal component removed
 
     [[nodiscard]] V operator()(const V& d_position) const {
         return dot(gradient_1, d_position) * d_normal_1 + dot(gradient_2, d_position) * d_normal_2;
     }
 };
+
+namespace detail {
+/// Of edges e1, e2 of a triangle and normals n0, n1, n2. Nothing comes back where squares leave the range of T.
+template <Vector3 V>
+[[nodiscard]] std::optional<InterpolatedCurvature<V>>
+interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
+    using T = scalar_t<V>;
+    const V face = cross(e1, e2);
+    const V d1 = n1 - n0, d2 = n2 - n0;
+    const V normal = n0 + (b1 * d1 + b2 * d2);
+    const T face2 = length2(face), normal2 = length2(normal);
+    // Below the smallest normal number a square has lost its digits and its inverse overflows; from that one's inverse on
+    // it is the inverse that has lost them.
+    const T least = (std::numeric_limits<T>::min)(), most = T(1) / least;
+    if (!(face2 >= least && face2 <= most && normal2 >= least && normal2 <= most))
+        return std::nullopt;
+    const T inverse_face2 = T(1) / face2, inverse_length = T(1) / sqrt(normal2);
+    const auto projected = [&](const V& d) -> V { return inverse_length * (d - dot(normal, d) / normal2 * normal); };
+    return InterpolatedCurvature<V>{inverse_face2 * cross(e2, face), inverse_face2 * cross(face, e1), projected(d1),
+                                    projected(d2)};
+}
+
+/// The factor that brings the longest of these to about the unit of length; 0 where there is none.
+template <Vector3 V>
+[[nodiscard]] scalar_t<V> to_unit(const V& a, const V& b, const V& c) {
+    using T = scalar_t<V>;
+    const T largest = (std::max)({largest_component(a), largest_component(b), largest_component(c)});
+    return largest >= (std::numeric_limits<T>::min)() ? T(1) / largest : T(0);
+}
+} // namespace detail
 
 /// @param p0,p1,p2  the triangle's vertices
 /// @param n0,n1,n2  their normals, unit or not
@@ -135,17 +171,17 @@ template <Vector3 V>
                                                             const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
     using T = scalar_t<V>;
     const V e1 = p1 - p0, e2 = p2 - p0;
-    const V face = cross(e1, e2);
-    const V d1 = n1 - n0, d2 = n2 - n0;
-    const V normal = n0 + (b1 * d1 + b2 * d2);
-    const T face2 = length2(face), normal2 = length2(normal);
-    // Below the smallest normal number the square has lost its digits, and its inverse overflows.
-    const T least = (std::numeric_limits<T>::min)();
-    if (!(face2 >= least) || !(normal2 >= least))
+    if (const auto curvature = detail::interpolated_in_range(e1, e2, n0, n1, n2, b1, b2))
+        return *curvature;
+    // The same triangle and its normals in units of their own: what the normals are long does not matter, and the
+    // gradients are in the inverse of the edges' unit.
+    const T s = detail::to_unit(e1, e2, e1), n = detail::to_unit(n0, n1, n2);
+    auto curvature = detail::interpolated_in_range<V>(s * e1, s * e2, n * n0, n * n1, n * n2, b1, b2);
+    if (!curvature)
         return {zero_vector<V>(), zero_vector<V>(), zero_vector<V>(), zero_vector<V>()};
-    const T inverse_face2 = T(1) / face2, inverse_length = T(1) / sqrt(normal2);
-    const auto projected = [&](const V& d) -> V { return inverse_length * (d - dot(normal, d) / normal2 * normal); };
-    return {inverse_face2 * cross(e2, face), inverse_face2 * cross(face, e1), projected(d1), projected(d2)};
+    curvature->gradient_1 = s * curvature->gradient_1;
+    curvature->gradient_2 = s * curvature->gradient_2;
+    return *curvature;
 }
 
 /// A hit on any of several kinds of surface: the curvature as std::variant.

@@ -33,7 +33,7 @@ public:
                 dz = leaf.middle[2] - t::z(centre_);
         const T hx = leaf.half[0], hy = leaf.half[1], hz = leaf.half[2];
         // Every row is linear in place, and 0 at the centre: on the box it lies in middle ± reach, rounding included, as
-        // the terms for a thin footprint are large and cancel.
+        // the terms for a thin footprint are large and cancel. What is compared with 1 has its margin thereby.
         std::array<T, 4> least, most; // of its absolute value
 #pragma GCC unroll 1                  // else GCC unrolls it, and then does not vectorise it
         for (std::size_t row = 0; row < 4; ++row) {
@@ -49,13 +49,13 @@ public:
             t::x(normal_) * leaf.normal[0] + t::y(normal_) * leaf.normal[1] + t::z(normal_) * leaf.normal[2];
         // Normals are of unit length, so rounding is of that size; where all are the same they give what a vertex does.
         const T spread = leaf.spread > T(0) ? leaf.spread * (T(1) + rounding) + rounding : T(0);
-        const bool beside = square(least[0]) + square(least[1]) > T(1) + rounding;
-        return {!beside && cosine > -spread, !(most[2] < T(1) - rounding), !(cosine > spread)};
+        const bool beside = square(least[0]) + square(least[1]) > T(1);
+        return {!beside && cosine > -spread, !(most[2] < T(1)), !(cosine > spread)};
     }
 
 private:
     using t = vector_traits<V>;
-    /// Of what is compared with 1: more than was ever seen, for compilers that fuse products and sums.
+    /// Of a sum's terms: more than was ever seen, for compilers that fuse products and sums.
     static constexpr T rounding = T(64) * std::numeric_limits<T>::epsilon();
 
     template <class Coordinate>

@@ -5,6 +5,7 @@
 #include "nephroid/map/point_tree.hpp"
 #include "nephroid/map/spacing.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <numeric>
 #include <ranges>
@@ -96,7 +97,8 @@ private:
         EyePathLeaf<T>& added = leaves_.emplace_back();
         for (std::size_t axis = 0; axis < 3; ++axis) {
             added.middle[axis] = T(0.5) * box.low[axis] + T(0.5) * box.high[axis];
-            added.half[axis] = T(0.5) * box.high[axis] - T(0.5) * box.low[axis];
+            // From the middle as it was rounded: else a vertex far from the origin may lie outside.
+            added.half[axis] = (std::max)(box.high[axis] - added.middle[axis], added.middle[axis] - box.low[axis]);
             added.normal[axis] = T(0.5) * normals.low[axis] + T(0.5) * normals.high[axis];
             added.spread = added.spread + square(T(0.5) * normals.high[axis] - T(0.5) * normals.low[axis]);
         }

@@ -81,11 +81,9 @@ public:
     void refit(std::array<std::vector<T>, 3>& moved, E& executor) {
         coordinates_.swap(moved);
         constexpr std::size_t nodes_per_task = 64;
-        executor((nodes_.size() + nodes_per_task - 1) / nodes_per_task, [&](std::size_t task) {
-            const std::size_t end = (std::min)(nodes_.size(), (task + 1) * nodes_per_task);
-            for (std::size_t i = task * nodes_per_task; i < end; ++i)
-                if (nodes_[i].leaf != no_leaf)
-                    refit_leaf(leaves_[nodes_[i].leaf], nodes_[i].box);
+        detail::for_each_index(executor, nodes_.size(), nodes_per_task, [&](std::size_t i) {
+            if (nodes_[i].leaf != no_leaf)
+                refit_leaf(leaves_[nodes_[i].leaf], nodes_[i].box);
         });
         for (std::size_t i = nodes_.size(); i-- > 0;) { // children follow their parents
             if (nodes_[i].leaf != no_leaf)
