@@ -7,6 +7,7 @@
 #pragma once
 
 #include "nephroid/vector/algebra.hpp"
+#include "nephroid/vector/wide.hpp"
 
 #include <algorithm>
 #include <concepts>
@@ -134,18 +135,24 @@ template <Vector3 V>
 [[nodiscard]] InterpolatedCurvature<V> interpolated_normals(const V& p0, const V& p1, const V& p2, const V& n0,
                                                             const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
     using T = scalar_t<V>;
-    const V e1 = p1 - p0, e2 = p2 - p0;
-    const V face = cross(e1, e2);
+    using W = wider_t<T>;
+    const auto e1 = detail::widened(V(p1 - p0)), e2 = detail::widened(V(p2 - p0));
+    const auto face = detail::wide_cross<V>(e1, e2);
     const V d1 = n1 - n0, d2 = n2 - n0;
     const V normal = n0 + (b1 * d1 + b2 * d2);
-    const T face2 = length2(face), normal2 = length2(normal);
+    const W face2 = detail::wide_dot(face, face);
+    const T normal2 = length2(normal);
     // Below the smallest normal number the square has lost its digits, and its inverse overflows.
     const T least = (std::numeric_limits<T>::min)();
-    if (!(face2 >= least) || !(normal2 >= least))
+    if (!(face2 >= W(least)) || !(normal2 >= least))
         return {zero_vector<V>(), zero_vector<V>(), zero_vector<V>(), zero_vector<V>()};
-    const T inverse_face2 = T(1) / face2, inverse_length = T(1) / sqrt(normal2);
-    const auto projected = [&](const V& d) -> V { return inverse_length * (d - dot(normal, d) / normal2 * normal); };
-    return {inverse_face2 * cross(e2, face), inverse_face2 * cross(face, e1), projected(d1), projected(d2)};
+    const W inverse_face2 = W(1) / face2;
+    const T inverse_normal2 = T(1) / normal2, inverse_length = sqrt(inverse_normal2);
+    const auto projected = [&](const V& d) -> V {
+        return inverse_length * (d - inverse_normal2 * dot(normal, d) * normal);
+    };
+    return {detail::narrowed<V>(inverse_face2, detail::wide_cross<V>(e2, face)),
+            detail::narrowed<V>(inverse_face2, detail::wide_cross<V>(face, e1)), projected(d1), projected(d2)};
 }
 
 /// A hit on any of several kinds of surface: the curvature as std::variant.
