@@ -7,6 +7,7 @@
 #include "nephroid/footprint/policies.hpp"
 #include "nephroid/map/eye_path_map.hpp"
 #include "nephroid/transport/walk.hpp"
+#include "nephroid/vector/in_place.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -153,9 +154,10 @@ template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collaps
     const T hx = reach(t::x(half), t::x(deposit.normal)), hy = reach(t::y(half), t::y(deposit.normal)),
             hz = reach(t::z(half), t::z(deposit.normal));
     const T cx = t::x(centre), cy = t::y(centre), cz = t::z(centre);
-    outcome.splat.emplace(Splat<V, F>{centre, filter.row_a, filter.row_b, inverse_thickness * deposit.normal,
-                                      deposit.normal, deposit.direction, peak,
-                                      Box<T>{{cx - hx, cy - hy, cz - hz}, {cx + hx, cy + hy, cz + hz}}});
+    outcome.splat.emplace(InPlace{[&] {
+        return Splat<V, F>{centre, filter.row_a, filter.row_b, inverse_thickness * deposit.normal, deposit.normal,
+                           deposit.direction, peak, Box<T>{{cx - hx, cy - hy, cz - hz}, {cx + hx, cy + hy, cz + hz}}};
+    }});
     return outcome;
 }
 
