@@ -37,8 +37,7 @@ template <Vector3 V>
         else
             return p * q - r * s;
     };
-    return {difference(a[1], b[2], a[2], b[1]), difference(a[2], b[0], a[0], b[2]),
-            difference(a[0], b[1], a[1], b[0])};
+    return {difference(a[1], b[2], a[2], b[1]), difference(a[2], b[0], a[0], b[2]), difference(a[0], b[1], a[1], b[0])};
 }
 
 /// s a, rounded.
