@@ -123,9 +123,9 @@ template <class T>
 /// What an analytic shape makes of a point on it.
 ///
 /// @param scale  of the shape, see `position_error`
-template <class T>
+template <class T, Curvature<Vec3<T>> C>
 [[nodiscard]] Hit<T> make_hit(const wide_t<T>& distance, const Vec3<wide_t<T>>& position, const Vec3<wide_t<T>>& normal,
-                              const SurfaceCurvature<T>& curvature, const wide_t<T>& scale) {
+                              const C& curvature, const wide_t<T>& scale) {
     const Vec3<T> p(position), n(normal);
     return {T(distance), p, n, n, curvature, position_error(p, scale)};
 }

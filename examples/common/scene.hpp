@@ -8,6 +8,7 @@
 
 #include "nephroid/emission/target.hpp"
 #include "nephroid/transport/scene.hpp"
+#include "nephroid/vector/in_place.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -122,14 +123,13 @@ public:
             return std::nullopt;
 
         const Part& part = parts_[best_part];
-        return std::visit(
-            [&](const auto& shape) {
-                Hit<T> hit = shape.hit(ray, *best);
-                if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh<T>>)
-                    hit.surface = part.material;
-                return hit;
-            },
-            part.shape);
+        const auto fill_in = [&](const auto& shape) {
+            Hit<T> hit = shape.hit(ray, *best);
+            if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh<T>>)
+                hit.surface = part.material;
+            return hit;
+        };
+        return std::optional<Hit<T>>(std::in_place, InPlace{[&] { return std::visit(fill_in, part.shape); }});
     }
 
     /// Whether anything lies between: faster than `intersect`.

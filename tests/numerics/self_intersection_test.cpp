@@ -80,7 +80,8 @@ Vec<T> spawned(const H& hit, const Vec<T>& direction) {
         std::optional<H> intersect(const Vec<T>&, const Vec<T>&, T, T) const { return std::nullopt; }
     } space;
     Statistics account;
-    nephroid::detail::Walk<Space, Vec<T>, T, 2> walk(space, {hit.position, direction, T(1), {}}, account);
+    nephroid::Photon<Vec<T>, T> photon{hit.position, direction, T(1), {}};
+    nephroid::detail::Walk<Space, Vec<T>, T, 2> walk(space, photon, account);
     walk.leave(hit);
     return walk.photon().position;
 }

@@ -36,8 +36,7 @@ template <class S, class L>
         const Spread<float> spread{float(count), 8};
         for (std::uint64_t i = 0; i < count; ++i) {
             Sampler<HaltonSequence> sampler(sequence, i);
-            const auto photon = light.emit(sampler, spread);
-            auto deposit = walk(scene, photon, sampler, limits, account);
+            auto deposit = walk(scene, light.emit(sampler, spread), sampler, limits, account);
             benchmark::DoNotOptimize(deposit);
         }
     };
@@ -51,8 +50,7 @@ void benchmark_order_in(const Effort& effort, const std::string& name, const S& 
     const auto light = sun();
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {
         Sampler<Sequence> sampler(sequence, i);
-        const auto photon = light.emit(sampler, Spread<float>{float(photons), 8});
-        return walk(scene, photon, sampler, WalkLimits{}, account);
+        return walk(scene, light.emit(sampler, Spread<float>{float(photons), 8}), sampler, WalkLimits{}, account);
     };
     SerialExecutor executor;
     nephroid::detail::TracedBatch<std::optional<Deposit<Vec, float>>> batch;

@@ -128,9 +128,10 @@ public:
                                                       float t_max) const {
         const Ray<float> ray{origin, direction, t_min, t_max};
         if (const auto water = embree_.nearest(ray)) // nothing lies above it
-            return mesh_.hit(ray, *water);
-        const auto ground = floor_.nearest(ray, wide_t<float>(t_max));
-        return ground ? std::optional(floor_.hit(ray, *ground)) : std::nullopt;
+            return std::optional<Hit<float>>(std::in_place, InPlace{[&] { return mesh_.hit(ray, *water); }});
+        if (const auto ground = floor_.nearest(ray, wide_t<float>(t_max)))
+            return std::optional<Hit<float>>(std::in_place, InPlace{[&] { return floor_.hit(ray, *ground); }});
+        return std::nullopt;
     }
 
     template <class Sampler>

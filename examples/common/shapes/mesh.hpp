@@ -71,18 +71,31 @@ public:
     /// Any hit, not the nearest one.
     [[nodiscard]] bool occludes(const Ray<T>& ray) const { return search(ray, wide(ray.t_max), true).has_value(); }
 
-    /// `surface` is the triangle's material.
+    /// `surface` is the triangle's material. Every hit is written once, where it is returned: what is put together in
+    /// parts and then copied waits for its parts.
     [[nodiscard]] Hit<T> hit(const Ray<T>&, const Candidate<T>& candidate) const {
         const auto [p0, p1, p2] = corners(candidate.primitive);
         const WideVec3 e1 = widen(p1) - widen(p0), e2 = widen(p2) - widen(p0);
         const wide u = candidate.u, v = candidate.v;
         const WideVec3 face = wide_cross<T>(e1, e2);
-        const wide scale = magnitude(p0) + magnitude(e1) + magnitude(e2);
-        Hit<T> hit = make_hit<T>(candidate.distance, widen(p0) + (u * e1 + v * e2), normalize(face), Flat{}, scale);
-        hit.surface = material(candidate.primitive);
-        if (!data_.normals.empty())
-            smooth(hit, candidate, {p0, p1, p2}, face);
-        return hit;
+        const Vec3<T> position(widen(p0) + (u * e1 + v * e2)), geometric(normalize(face));
+        const T error = position_error(position, magnitude(p0) + magnitude(e1) + magnitude(e2));
+        const std::size_t surface = material(candidate.primitive);
+        const auto& t = data_.triangles[candidate.primitive];
+        if (!data_.normals.empty()) {
+            const WideVec3 n0 = widen(data_.normals[t[0]]), n1 = widen(data_.normals[t[1]]),
+                           n2 = widen(data_.normals[t[2]]);
+            const WideVec3 n = n0 + (u * (n1 - n0) + v * (n2 - n0));
+            const wide side = dot(n, face); // zero: no normals here, or one that lies in the triangle's plane
+            if (n0 != WideVec3(0) && n1 != WideVec3(0) && n2 != WideVec3(0) && side != 0) {
+                const wide sign = side < 0 ? -1 : 1; // the shading normal is on the geometric one's side
+                return {T(candidate.distance), position, geometric, Vec3<T>(sign * normalize(n)),
+                        interpolated_normals<Vec3<T>>(p0, p1, p2, Vec3<T>(sign * n0), Vec3<T>(sign * n1),
+                                                      Vec3<T>(sign * n2), T(u), T(v)),
+                        error, surface};
+            }
+        }
+        return {T(candidate.distance), position, geometric, geometric, Flat{}, error, surface};
     }
 
 private:
@@ -224,20 +237,6 @@ private:
         const wide inner_u = (std::max)(0.0, sign * u), inner_v = (std::max)(0.0, sign * v);
         const wide sum = inner_u + inner_v + (std::max)(0.0, sign * w);
         return Candidate<T>{t, inner_u / sum, inner_v / sum, block.triangles[lane]};
-    }
-
-    void smooth(Hit<T>& hit, const Candidate<T>& candidate, const std::array<Vec3<T>, 3>& p,
-                const WideVec3& face) const {
-        const auto& t = data_.triangles[candidate.primitive];
-        WideVec3 n0 = widen(data_.normals[t[0]]), n1 = widen(data_.normals[t[1]]), n2 = widen(data_.normals[t[2]]);
-        const WideVec3 n = n0 + (candidate.u * (n1 - n0) + candidate.v * (n2 - n0));
-        const wide side = dot(n, face); // zero: no normals here, or one that lies in the triangle's plane
-        if (n0 == WideVec3(0) || n1 == WideVec3(0) || n2 == WideVec3(0) || side == 0)
-            return;
-        const wide sign = side < 0 ? -1 : 1; // the shading normal is on the geometric one's side
-        hit.shading_normal = Vec3<T>(sign * normalize(n));
-        hit.curvature = interpolated_normals<Vec3<T>>(p[0], p[1], p[2], Vec3<T>(sign * n0), Vec3<T>(sign * n1),
-                                                      Vec3<T>(sign * n2), T(candidate.u), T(candidate.v));
     }
 
     MeshData<T> data_;

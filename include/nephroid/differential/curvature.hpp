@@ -7,6 +7,7 @@
 #pragma once
 
 #include "nephroid/vector/algebra.hpp"
+#include "nephroid/vector/wide.hpp"
 
 #include <algorithm>
 #include <concepts>
@@ -132,23 +133,31 @@ struct InterpolatedCurvature {
 };
 
 namespace detail {
-/// Of edges e1, e2 of a triangle and normals n0, n1, n2. Nothing comes back where squares leave the range of T.
+/// Of edges e1, e2 of a triangle and normals n0, n1, n2. Nothing comes back where squares leave the range.
 template <Vector3 V>
 [[nodiscard]] std::optional<InterpolatedCurvature<V>>
 interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
     using T = scalar_t<V>;
-    const V face = cross(e1, e2);
-    const V d1 = n1 - n0, d2 = n2 - n0;
-    const V normal = n0 + (b1 * d1 + b2 * d2);
-    const T face2 = length2(face), normal2 = length2(normal);
     // Below the smallest normal number a square has lost its digits and its inverse overflows; from that one's inverse on
     // it is the inverse that has lost them.
-    const T least = (std::numeric_limits<T>::min)(), most = T(1) / least;
-    if (!(face2 >= least && face2 <= most && normal2 >= least && normal2 <= most))
+    const auto is_in_range = []<class W>(const W& square) {
+        const W least = (std::numeric_limits<W>::min)(), most = W(1) / least;
+        return square >= least && square <= most;
+    };
+    const auto wide_e1 = widened(e1), wide_e2 = widened(e2), face = wide_cross<V>(wide_e1, wide_e2);
+    const V d1 = n1 - n0, d2 = n2 - n0;
+    const V normal = n0 + (b1 * d1 + b2 * d2);
+    const auto face2 = wide_dot(face, face);
+    const T normal2 = length2(normal);
+    if (!is_in_range(face2) || !is_in_range(normal2))
         return std::nullopt;
-    const T inverse_face2 = T(1) / face2, inverse_length = T(1) / sqrt(normal2);
-    const auto projected = [&](const V& d) -> V { return inverse_length * (d - dot(normal, d) / normal2 * normal); };
-    return InterpolatedCurvature<V>{inverse_face2 * cross(e2, face), inverse_face2 * cross(face, e1), projected(d1),
+    const auto inverse_face2 = decltype(face2)(1) / face2;
+    const T inverse_normal2 = T(1) / normal2, inverse_length = sqrt(inverse_normal2);
+    const auto projected = [&](const V& d) -> V {
+        return inverse_length * (d - inverse_normal2 * dot(normal, d) * normal);
+    };
+    return InterpolatedCurvature<V>{narrowed<V>(inverse_face2, wide_cross<V>(wide_e2, face)),
+                                    narrowed<V>(inverse_face2, wide_cross<V>(face, wide_e1)), projected(d1),
                                     projected(d2)};
 }
 

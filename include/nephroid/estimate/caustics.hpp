@@ -170,8 +170,7 @@ Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, P
                     light, sequence, pass.first, begin, end,
                     [&](std::uint64_t i, Statistics& account) {
                         Sampler<Sequence> sampler(sequence, pass.first + i);
-                        const auto photon = light.emit(sampler, spread);
-                        return walk(scene, photon, sampler, pass.limits, account);
+                        return walk(scene, light.emit(sampler, spread), sampler, pass.limits, account);
                     },
                     executor);
             });

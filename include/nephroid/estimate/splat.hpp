@@ -7,6 +7,7 @@
 #include "nephroid/footprint/policies.hpp"
 #include "nephroid/map/eye_path_map.hpp"
 #include "nephroid/transport/walk.hpp"
+#include "nephroid/vector/in_place.hpp"
 
 #include <algorithm>
 #include <optional>
@@ -109,15 +110,12 @@ template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collaps
                                             const SplatPolicies<K, Filter, Collapse, Excess, Shape, Order>& policies) {
     using T = scalar_t<V>;
     using t = vector_traits<V>;
-    SplatOutcome<V, F> outcome{};
-    const auto without = [&](Fate fate) {
-        outcome.fate = fate;
-        return outcome;
-    };
-
+    SplatOutcome<V, F> outcome{}; // what every return names, so that none of them copies it
     const std::optional<Ellipse<V>> shape = policies.shape(deposit);
-    if (!all_finite(deposit.position) || !shape)
-        return without(Fate::invalid);
+    if (!all_finite(deposit.position) || !shape) {
+        outcome.fate = Fate::invalid;
+        return outcome;
+    }
     Ellipse<V> ellipse = *shape;
     const T spacing = map.spacing_at(deposit.position);
 
@@ -125,12 +123,16 @@ template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collaps
         outcome.bounded = outcome.bounded || verdict == Verdict::bounded;
         return verdict != Verdict::discarded;
     };
-    if (!judged(policies.excess(ellipse, map.diagonal())))
-        return without(Fate::excessive);
+    if (!judged(policies.excess(ellipse, map.diagonal()))) {
+        outcome.fate = Fate::excessive;
+        return outcome;
+    }
     if constexpr (!std::same_as<Filter, NoPixelFilter>)
         ellipse = add_disk(ellipse, T(pixel_filter_width<K> * policies.filter.width_scale) * spacing);
-    if (!judged(policies.collapse(ellipse, spacing)))
-        return without(Fate::collapsed);
+    if (!judged(policies.collapse(ellipse, spacing))) {
+        outcome.fate = Fate::collapsed;
+        return outcome;
+    }
 
     const T scale = abs(area_scale(ellipse));
     const FilterMatrix<V> filter = filter_matrix(ellipse);
@@ -142,17 +144,20 @@ template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collaps
     const T inverse_thickness = T(1) / thickness, inverse_scale = T(1) / scale;
     const F peak = deposit.flux * inverse_scale;
     if (!all_finite(filter.row_a) || !all_finite(filter.row_b) || !isfinite(inverse_thickness) ||
-        !isfinite(double(flux_traits<F>::power(peak))))
-        return without(Fate::collapsed);
+        !isfinite(double(flux_traits<F>::power(peak)))) {
+        outcome.fate = Fate::collapsed;
+        return outcome;
+    }
 
     const V centre = map.tree().relative(deposit.position), half = half_extents(ellipse);
     const auto reach = [&](T h, T n) { return h + thickness * abs(n); };
     const T hx = reach(t::x(half), t::x(deposit.normal)), hy = reach(t::y(half), t::y(deposit.normal)),
             hz = reach(t::z(half), t::z(deposit.normal));
     const T cx = t::x(centre), cy = t::y(centre), cz = t::z(centre);
-    outcome.splat = Splat<V, F>{centre, filter.row_a, filter.row_b, inverse_thickness * deposit.normal, deposit.normal,
-                                deposit.direction, peak,
-                                Box<T>{{cx - hx, cy - hy, cz - hz}, {cx + hx, cy + hy, cz + hz}}};
+    outcome.splat.emplace(InPlace{[&] {
+        return Splat<V, F>{centre, filter.row_a, filter.row_b, inverse_thickness * deposit.normal, deposit.normal,
+                           deposit.direction, peak, Box<T>{{cx - hx, cy - hy, cz - hz}, {cx + hx, cy + hy, cz + hz}}};
+    }});
     return outcome;
 }
 

@@ -47,8 +47,7 @@ template <class S, class L, SampleSequence Sequence = HaltonSequence, class E = 
     const auto spread = detail::spread_of<scalar_t<typename L::vector>>(pass);
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {
         Sampler<Sequence> sampler(sequence, pass.first + i);
-        const auto photon = light.emit(sampler, spread);
-        Kept deposit = walk(scene, photon, sampler, pass.limits, account);
+        Kept deposit = walk(scene, light.emit(sampler, spread), sampler, pass.limits, account);
         if (!deposit)
             return deposit;
         const bool valid = all_finite(deposit->position) && all_finite(deposit->normal);

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "nephroid/vector/frame.hpp"
+#include "nephroid/vector/wide.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 namespace nephroid {
 
@@ -25,36 +27,6 @@ template <Vector3 V>
 }
 
 namespace detail {
-/// A vector's components where their products neither overflow nor vanish: in double for float.
-template <Vector3 V>
-using Wide3 = std::array<wider_t<scalar_t<V>>, 3>;
-
-template <Vector3 V>
-[[nodiscard]] Wide3<V> widened(const V& v) {
-    using t = vector_traits<V>;
-    using W = wider_t<scalar_t<V>>;
-    return {W(t::x(v)), W(t::y(v)), W(t::z(v))};
-}
-
-template <class W>
-[[nodiscard]] W wide_dot(const std::array<W, 3>& a, const std::array<W, 3>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/// a × b. Of floats in double, where their products are exact: what cancels then does so without an error.
-template <Vector3 V>
-[[nodiscard]] Wide3<V> wide_cross(const Wide3<V>& a, const Wide3<V>& b) {
-    using W = wider_t<scalar_t<V>>;
-    const auto difference = [](const W& p, const W& q, const W& r, const W& s) {
-        if constexpr (std::is_same_v<W, scalar_t<V>>)
-            return difference_of_products<W>(p, q, r, s);
-        else
-            return p * q - r * s;
-    };
-    return {difference(a[1], b[2], a[2], b[1]), difference(a[2], b[0], a[0], b[2]),
-            difference(a[0], b[1], a[1], b[0])};
-}
-
 /// n · (a × b)
 template <Vector3 V>
 [[nodiscard]] wider_t<scalar_t<V>> wide_area(const V& a, const V& b, const V& normal) {
@@ -177,17 +149,30 @@ template <Vector3 V>
 /// nothing but the choice of axis vectors.
 template <Vector3 V>
 [[nodiscard]] Ellipse<V> add_disk(const Ellipse<V>& ellipse, scalar_t<V> radius) {
-    using W = wider_t<scalar_t<V>>;
-    const auto a = detail::widened(ellipse.a), b = detail::widened(ellipse.b);
-    const W aa = detail::wide_dot(a, a), bb = detail::wide_dot(b, b), radius2 = square(W(radius));
-    const Frame<V> frame = detail::frame_along(aa >= bb ? ellipse.a : ellipse.b, ellipse.normal);
-    const auto u = detail::widened(frame.u), v = detail::widened(frame.v);
-    const W au = detail::wide_dot(a, u), bu = detail::wide_dot(b, u);
+    using T = scalar_t<V>;
+    using W = wider_t<T>;
+    const auto a = detail::widened(ellipse.a), b = detail::widened(ellipse.b), n = detail::widened(ellipse.normal);
+    const W aa = detail::wide_dot(a, a), bb = detail::wide_dot(b, b), ab = detail::wide_dot(a, b);
+    const bool along_a = aa >= bb;
+    const auto& longer = along_a ? a : b;
+    const W longer2 = along_a ? aa : bb;
+    if (longer2 < (std::numeric_limits<W>::min)()) { // a point, as far as its squares tell
+        const Frame<V> frame = frame_about(ellipse.normal);
+        return {radius * frame.u, radius * frame.v, ellipse.normal};
+    }
+    // Along the longer vector l the other one has their product over |l|, and across it their area over |l|.
+    const W area = detail::wide_dot(n, detail::wide_cross<V>(a, b)), radius2 = square(W(radius));
+    const W inverse2 = W(1) / longer2;
+    const W variance = longer2 + ab * ab * inverse2 + radius2, covariance = (along_a ? ab : -ab) * area * inverse2;
     // det(A Aᵀ + r² I) = det(A)² + r² |A|² + r⁴: a sum of squares, so nothing cancels.
-    const W area = detail::wide_area(ellipse.a, ellipse.b, ellipse.normal);
     const W determinant = square(area) + radius2 * (aa + bb) + square(radius2);
-    return detail::ellipse_of_covariance(frame, ellipse.normal, au * au + bu * bu + radius2,
-                                         au * detail::wide_dot(a, v) + bu * detail::wide_dot(b, v), determinant);
+    // The covariance's Cholesky factor, for l and n × l instead of unit vectors.
+    const W scale = W(1) / (sqrt(variance) * sqrt(longer2));
+    const W along = variance * scale, across = covariance * scale, shorter = sqrt(determinant) * scale;
+    const auto side = detail::wide_cross<V>(n, longer);
+    const auto sum = [&](std::size_t axis) { return T(along * longer[axis] + across * side[axis]); };
+    const auto other = [&](std::size_t axis) { return T(shorter * side[axis]); };
+    return {make_vector<V>(sum(0), sum(1), sum(2)), make_vector<V>(other(0), other(1), other(2)), ellipse.normal};
 }
 
 /// The ellipse of any number of tangents' displacements: their covariances add. Two give exactly `footprint`; a

@@ -9,6 +9,7 @@
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/scene.hpp"
 #include "nephroid/transport/trail.hpp"
+#include "nephroid/vector/in_place.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -56,7 +57,7 @@ public:
     using T = scalar_t<V>;
     using H = hit_t<S, V>;
 
-    Walk(const S& scene, const Photon<V, F, N>& photon, Statistics& account)
+    Walk(const S& scene, Photon<V, F, N>& photon, Statistics& account)
         : scene_(scene), account_(account), photon_(photon), emitted_power_(power(photon.flux)) {}
 
     [[nodiscard]] bool start() {
@@ -218,7 +219,7 @@ private:
 
     const S& scene_;
     Statistics& account_;
-    Photon<V, F, N> photon_;
+    Photon<V, F, N>& photon_; // the caller's own: copied here, its first flight would wait for it
     double emitted_power_;
     T ahead_ = T(0); ///< how far ahead of the surface that the photon left its ray began
     [[no_unique_address]] typename medium_of<S, V>::type medium_{};
@@ -238,7 +239,7 @@ private:
 /// Does not throw unless the scene does.
 template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Trail = NoTrail>
     requires detail::MustBeScene<S, V, Sampler>
-[[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, const Photon<V, F, N>& photon, Sampler& sampler,
+[[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, Photon<V, F, N> photon, Sampler& sampler,
                                                    const WalkLimits& limits, Statistics& account, Trail&& trail = {}) {
     using T = scalar_t<V>;
     static_assert(Absorbs<S, V> || !requires { typename S::medium; },
@@ -268,7 +269,7 @@ template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Trail 
             if (events == 0)
                 return ended(Fate::direct);
             trail.meet(*hit, path.is_in_front_of(*hit), false);
-            return path.deposit(*hit);
+            return std::optional<Deposit<V, F, N>>(std::in_place, InPlace{[&] { return path.deposit(*hit); }});
         }
         if (events == limits.specular_events)
             return ended(Fate::terminated);
