@@ -42,6 +42,13 @@ struct SheetNode {
     std::array<double, 2> slope; ///< of the weight, by the samples
 };
 
+/// Photons that keep apart determine derivatives by fewer, from smaller cells; what chance leaves of them does not.
+///
+/// @param share  of the light's photons that chance sent on this sheet's path, 1 for all
+[[nodiscard]] inline double photons_per_cell(bool stratified, double share) {
+    return stratified && share == 1 ? 9 : EmissionCells::photons_per_cell;
+}
+
 /// The cells of a sheet, found by their squares and as neighbours of one another.
 class SheetCells {
 public:

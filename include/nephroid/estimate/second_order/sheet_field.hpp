@@ -30,8 +30,8 @@ public:
                const FieldOptions& options, const TaskRunner& run)
         : options_(options), density_{options.stratified, sheet.share}, aspect_(sheets.aspect()), bounds_(options),
           cells_(EmissionCells(places_of(all, sheet), sheets.aspect(), options.repeats,
-                               photons_per_cell(options, sheet) * double(sheet.photons.size()) /
-                                   (double(all.size()) * sheet.share))) {
+                               detail::photons_per_cell(options.stratified, sheet.share) *
+                                   double(sheet.photons.size()) / (double(all.size()) * sheet.share))) {
         PathSamples photons;
         for (const std::uint32_t i : sheet.photons)
             photons.add(all[i]);
@@ -87,11 +87,6 @@ public:
     }
 
 private:
-    /// Photons that keep apart determine derivatives by fewer, from smaller cells; what chance leaves of them does not.
-    [[nodiscard]] static double photons_per_cell(const FieldOptions& options, const EmissionSheet& sheet) {
-        return options.stratified && sheet.share == 1 ? 9 : EmissionCells::photons_per_cell;
-    }
-
     [[nodiscard]] static std::vector<std::array<double, 2>> places_of(const PathSamples& all,
                                                                       const EmissionSheet& sheet) {
         std::vector<std::array<double, 2>> places;
