@@ -138,20 +138,18 @@ template <Vector3 V>
 [[nodiscard]] std::optional<InterpolatedCurvature<V>>
 interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
     using T = scalar_t<V>;
+    using W = wider_t<T>;
     // Below the smallest normal number a square has lost its digits and its inverse overflows; from that one's inverse on
     // it is the inverse that has lost them.
-    const auto is_in_range = []<class W>(const W& square) {
-        const W least = (std::numeric_limits<W>::min)(), most = W(1) / least;
-        return square >= least && square <= most;
-    };
+    const T least = (std::numeric_limits<T>::min)(), most = T(1) / least;
     const auto wide_e1 = widened(e1), wide_e2 = widened(e2), face = wide_cross<V>(wide_e1, wide_e2);
     const V d1 = n1 - n0, d2 = n2 - n0;
     const V normal = n0 + (b1 * d1 + b2 * d2);
-    const auto face2 = wide_dot(face, face);
+    const W face2 = wide_dot(face, face);
     const T normal2 = length2(normal);
-    if (!is_in_range(face2) || !is_in_range(normal2))
+    if (!(face2 >= W(least) && face2 <= W(most) && normal2 >= least && normal2 <= most))
         return std::nullopt;
-    const auto inverse_face2 = decltype(face2)(1) / face2;
+    const W inverse_face2 = W(1) / face2;
     const T inverse_normal2 = T(1) / normal2, inverse_length = sqrt(inverse_normal2);
     const auto projected = [&](const V& d) -> V {
         return inverse_length * (d - inverse_normal2 * dot(normal, d) * normal);

@@ -230,7 +230,7 @@ private:
 /// Follows one photon along its specular path.
 ///
 /// @param scene    the renderer's, see `Scene`
-/// @param photon   as emitted
+/// @param photon   as emitted, and no more afterwards: it is the one that walks
 /// @param sampler  the photon's own stream of numbers, from which the scene and Russian roulette draw
 /// @param limits   on the path
 /// @param account  gets the photon's flux by reason, except for what is deposited: that is the caller's to book
@@ -239,7 +239,7 @@ private:
 /// Does not throw unless the scene does.
 template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Trail = NoTrail>
     requires detail::MustBeScene<S, V, Sampler>
-[[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, Photon<V, F, N> photon, Sampler& sampler,
+[[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, Photon<V, F, N>&& photon, Sampler& sampler,
                                                    const WalkLimits& limits, Statistics& account, Trail&& trail = {}) {
     using T = scalar_t<V>;
     static_assert(Absorbs<S, V> || !requires { typename S::medium; },
@@ -281,6 +281,15 @@ template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Trail 
             return std::nullopt;
         path.leave(*hit);
     }
+}
+
+/// The same, for a photon that stays as it was.
+template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Trail = NoTrail>
+    requires detail::MustBeScene<S, V, Sampler>
+[[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, const Photon<V, F, N>& photon, Sampler& sampler,
+                                                   const WalkLimits& limits, Statistics& account, Trail&& trail = {}) {
+    Photon<V, F, N> walker = photon;
+    return walk(scene, std::move(walker), sampler, limits, account, std::forward<Trail>(trail));
 }
 
 } // namespace nephroid
