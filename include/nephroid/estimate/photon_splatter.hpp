@@ -59,8 +59,9 @@ public:
     /// Forgets all photons.
     void clear() { sums_.assign(map_->tree().slots(), flux_traits<F>::zero()); }
 
-    /// Photons of one chunk, in the order of their indices, on their way into the map.
-    class Chunk {
+    /// Photons of one chunk, in the order of their indices, on their way into the map. No two of them share a line of
+    /// cache: threads fill them at the same time.
+    class alignas(64) Chunk {
     public:
         /// Splats a deposit; its flux is booked in the account under what became of it.
         ///
@@ -147,7 +148,9 @@ public:
         requires Executor<E&>
     void add(std::span<const Chunk> chunks, E& executor) {
         bin(chunks, executor);
-        executor(groups(), [&](std::size_t group) {
+        // Neighbouring groups have a line of cache in common, which two threads would take from each other again and again.
+        constexpr std::size_t groups_per_task = 8;
+        detail::for_each_index(executor, groups(), groups_per_task, [&](std::size_t group) {
             for (std::size_t i = bin_begin_[group]; i < bin_begin_[group + 1]; ++i)
                 splat_leaf(bins_[i], map_->tree().leaves()[bins_[i].leaf]);
         });
