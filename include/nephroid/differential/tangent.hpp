@@ -39,21 +39,21 @@ template <Scalar T>
 inline constexpr T longest_tangent = detail::power_of_two<T>(
     (std::min)(std::numeric_limits<T>::max_exponent / 2, std::numeric_limits<wider_t<T>>::max_exponent / 4) - 12);
 
-/// The tangent, scaled down where it has outgrown that: between curved mirrors tangents grow exponentially, and what
+/// Scales a tangent down where it has outgrown that: between curved mirrors tangents grow exponentially, and what
 /// overflows ends as NaN. Such a footprint is still far too long, and the excess policy sees it (footprint/policies.hpp).
 template <Vector3 V>
-[[nodiscard]] Tangent<V> within_range(const Tangent<V>& tangent) {
+void bring_into_range(Tangent<V>& tangent) {
     using T = scalar_t<V>;
     using t = vector_traits<V>;
     const auto sum = [](const V& v) -> T { return abs(T(t::x(v))) + abs(T(t::y(v))) + abs(T(t::z(v))); };
     if (!(sum(tangent.d_position) + sum(tangent.d_direction) > longest_tangent<T>)) // one branch, nearly always taken
-        return tangent;
+        return;
     const auto largest = [](const V& v) { return (std::max)({T(abs(t::x(v))), T(abs(t::y(v))), T(abs(t::z(v)))}); };
     const T reach = (std::max)(largest(tangent.d_position), largest(tangent.d_direction));
     if (!(reach > longest_tangent<T>))
-        return tangent;
+        return;
     const T scale = longest_tangent<T> / reach;
-    return {scale * tangent.d_position, scale * tangent.d_direction};
+    tangent = {scale * tangent.d_position, scale * tangent.d_direction};
 }
 
 /// A photon differential: N tangents. Two (u, v) are Frisvad's aligned differential, the common case; further ones

@@ -77,8 +77,10 @@ public:
         const auto flight = transfer(photon_.direction, distance + ahead_, V(hit.geometric_normal));
         if (!flight)
             return end(Fate::invalid);
-        for (Tangent<V>& tangent : photon_.differential)
-            tangent = within_range((*flight)(tangent));
+        for (Tangent<V>& tangent : photon_.differential) {
+            tangent.d_position = (*flight)(tangent).d_position;
+            bring_into_range(tangent);
+        }
         if constexpr (HasPosition<H, V>)
             photon_.position = hit.position;
         else
@@ -212,7 +214,7 @@ private:
                 tangent.d_direction = turn.differentiate(tangent.d_direction, d_normal, T(scattering.d_eta[i]));
             else
                 tangent.d_direction = turn.differentiate(tangent.d_direction, d_normal);
-            tangent = within_range(tangent);
+            bring_into_range(tangent);
         }
         photon_.direction = turn.direction();
     }
