@@ -134,6 +134,38 @@ TEST_CASE_TEMPLATE("splat reach: rounding along a needle leaves out no vertex", 
     }
 }
 
+// A photon within a leaf, whose far end is one height away but for a few roundings: no terms cancel, and what is left is
+// the rounding of the leaf's own half.
+TEST_CASE_TEMPLATE("splat reach: rounding at the end of a leaf about the photon leaves out no vertex", T, float, double) {
+    using V = Vec<T>;
+    constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
+    Draws draw(4);
+    int wrong = 0, low = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const double scale = draw.in(0.5, 2), at = draw.in(-1, 1);
+        const V centre(0, 0, T(at)), flat(T(1e-3), T(1e-3), 0), normal(0, 0, 1);
+        const T high = T(at + (1 + draw.in(-4, 4) * epsilon) / scale), deep = T(at - draw.in(0, 1) / scale);
+        const Splat<V, T> splat{.centre = centre,
+                                .row_a = flat,
+                                .row_b = flat,
+                                .row_n = T(scale) * normal,
+                                .normal = normal,
+                                .direction = -normal,
+                                .peak = 1,
+                                .box = {}};
+        EyePathLeaf<T> leaf{}; // as the map does
+        leaf.middle[2] = T(0.5) * deep + T(0.5) * high;
+        leaf.half[2] = std::max(high - leaf.middle[2], leaf.middle[2] - deep);
+        leaf.normal[2] = T(1);
+        const bool is_low = std::abs(dot(splat.row_n, V(0, 0, high) - centre)) < T(1);
+        wrong += !is_low && !detail::SplatReach<V, T>(splat)(leaf).checks_height;
+        low += is_low;
+    }
+    CHECK(wrong == 0);
+    CHECK(low > 5000);
+    CHECK(low < 15000);
+}
+
 // Normals that differ by little, all but across the photon's: the ones that face it do so by a rounding.
 TEST_CASE_TEMPLATE("splat reach: rounding of normals at right angles to the photon leaves out no vertex", T, float,
                    double) {

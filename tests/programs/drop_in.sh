@@ -38,6 +38,7 @@ channel() { # file, channel, channels
 # Sets `difference` and `ratio` (of the sums) of a picture to one of ours, times a factor.
 compare() { # picture, our picture, [channel, channels, factor]
     difference="" ratio=""
+    [ "$(wc -c <"$1")" -gt $((4 * size * size * ${4:-1})) ] || fail "$1 has too few pixels"
     ! is_sanitized || return 0
     channel "$1" "${3:-0}" "${4:-1}" >a.txt
     channel "$2.pfm" 0 1 >b.txt

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <utility>
 
 using namespace nephroid;
 using tests::check_balance;
@@ -475,4 +476,22 @@ TEST_CASE("walk: a scene of mirrors needs no index of refraction") {
     // Refracting all the same is a mistake, and is counted as one.
     CHECK(!follow(RoomWithoutGlass<MirrorScattering<double>>{Event::refract}, photon, without));
     CHECK(without[Fate::invalid].photons == 1);
+}
+
+TEST_CASE("walk: a photon that is kept stays as it was, and goes where one that is given away goes") {
+    const auto photon = from_point<double>({0.25, -1, 1.5}, {1, 0.5, -2}, 0.75);
+    auto given_away = photon;
+    Constant sampler{0.5};
+    Statistics account;
+    const auto scene = mirror_above_floor<double>(0.5);
+    const auto kept = walk(scene, photon, sampler, WalkLimits{}, account);
+    const auto given = walk(scene, std::move(given_away), sampler, WalkLimits{}, account);
+    const auto again = walk(scene, photon, sampler, WalkLimits{}, account);
+    REQUIRE((kept && given && again));
+    for (const auto& other : {*given, *again}) {
+        CHECK(other.position == kept->position);
+        CHECK(other.direction == kept->direction);
+        CHECK(other.flux == kept->flux);
+        CHECK(other.d_position == kept->d_position);
+    }
 }

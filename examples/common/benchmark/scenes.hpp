@@ -6,6 +6,7 @@
 #include "common/scene.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/vector/in_place.hpp"
 
 #if defined(NEPHROID_EXAMPLES_HAS_EMBREE)
 #if __has_include(<embree4/rtcore.h>)

@@ -139,8 +139,8 @@ template <Vector3 V>
 interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
     using T = scalar_t<V>;
     using W = wider_t<T>;
-    // Below the smallest normal number a square has lost its digits and its inverse overflows; from that one's inverse on
-    // it is the inverse that has lost them.
+    // Below the smallest normal number of T a square has lost its digits, or the gradients do not fit into T; from that
+    // one's inverse on it is the inverse that has lost them, or the gradients.
     const T least = (std::numeric_limits<T>::min)(), most = T(1) / least;
     const auto wide_e1 = widened(e1), wide_e2 = widened(e2), face = wide_cross<V>(wide_e1, wide_e2);
     const V d1 = n1 - n0, d2 = n2 - n0;
@@ -180,7 +180,7 @@ template <Vector3 V>
     const V e1 = p1 - p0, e2 = p2 - p0;
     if (const auto curvature = detail::interpolated_in_range(e1, e2, n0, n1, n2, b1, b2))
         return *curvature;
-    // The same triangle and its normals in units of their own: what the normals are long does not matter, and the
+    // The same triangle and its normals in units of their own: how long the normals are does not matter, and the
     // gradients are in the inverse of the edges' unit.
     const T s = detail::to_unit(e1, e2, e1), n = detail::to_unit(n0, n1, n2);
     auto curvature = detail::interpolated_in_range<V>(s * e1, s * e2, n * n0, n * n1, n * n2, b1, b2);

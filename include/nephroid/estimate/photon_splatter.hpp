@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// @file  Splatting onto an eye path map: batches of photons, binned by leaves, each summed by one thread.
+/// @file  Splatting onto an eye path map: batches of photons, binned by groups of leaves, each summed by one thread.
 ///
-/// Leaves lie in groups, and a group's photons are added up by one thread in the order of their indices, so that the sums
-/// are the same bit for bit for any number of threads, without atomics or locks, and its vertices stay in cache.
+/// A group adds up its photons in the order of their indices whoever runs it, so that the sums are the same bit for bit
+/// for any number of threads, without atomics or locks.
 #pragma once
 
 #include "nephroid/estimate/splat_reach.hpp"
@@ -59,8 +59,8 @@ public:
     /// Forgets all photons.
     void clear() { sums_.assign(map_->tree().slots(), flux_traits<F>::zero()); }
 
-    /// Photons of one chunk, in the order of their indices, on their way into the map. No two of them share a line of
-    /// cache: threads fill them at the same time.
+    /// Photons of one chunk, in the order of their indices, on their way into the map. Aligned, as threads fill
+    /// neighbouring ones at the same time.
     class alignas(64) Chunk {
     public:
         /// Splats a deposit; its flux is booked in the account under what became of it.
@@ -148,8 +148,9 @@ public:
         requires Executor<E&>
     void add(std::span<const Chunk> chunks, E& executor) {
         bin(chunks, executor);
-        // Neighbouring groups have a line of cache in common, which two threads would take from each other again and again.
-        constexpr std::size_t groups_per_task = 8;
+        // Neighbouring groups have lines of cache in common, which two threads take from each other again and again: a
+        // task is several where that leaves enough of them for many threads.
+        const std::size_t groups_per_task = std::clamp<std::size_t>(groups() / 256, 1, 4);
         detail::for_each_index(executor, groups(), groups_per_task, [&](std::size_t group) {
             for (std::size_t i = bin_begin_[group]; i < bin_begin_[group + 1]; ++i)
                 splat_leaf(bins_[i], map_->tree().leaves()[bins_[i].leaf]);
@@ -180,10 +181,10 @@ private:
         detail::LeafMeeting meeting;
     };
 
-    /// How many neighbouring leaves one thread sums up together, as a power of two: four, which stay in the nearest cache,
-    /// or what makes 4096 groups at most, as sixteen parts of a batch count their visits to each.
+    /// How many neighbouring leaves one thread sums up together, as a power of two: four, which stay in the nearest
+    /// cache, or what makes 8192 groups at most, as sixteen parts of a batch count their visits to each.
     [[nodiscard]] unsigned group_bits() const {
-        return (std::max)(2u, unsigned(std::bit_width(map_->tree().leaves().size() >> 12)));
+        return (std::max)(2u, unsigned(std::bit_width(map_->tree().leaves().size() >> 13)));
     }
 
     [[nodiscard]] std::size_t groups() const { return (map_->tree().leaves().size() >> group_bits()) + 1; }

@@ -33,14 +33,14 @@ public:
                 dz = leaf.middle[2] - t::z(centre_);
         const T hx = leaf.half[0], hy = leaf.half[1], hz = leaf.half[2];
         // Every row is linear in place, and 0 at the centre: on the box it lies in middle ± reach, rounding included, as
-        // the terms for a thin footprint are large and cancel. What is compared with 1 has its margin thereby.
+        // the terms for a thin footprint are large and cancel.
         std::array<T, 4> least, most; // of its absolute value
 #pragma GCC unroll 1                  // else GCC unrolls it, and then does not vectorise it
         for (std::size_t row = 0; row < 4; ++row) {
             const T a = x_[row] * dx, b = y_[row] * dy, c = z_[row] * dz;
             const T middle = abs(a + b + c);
-            const T reach =
-                abs(x_[row]) * hx + abs(y_[row]) * hy + abs(z_[row]) * hz + rounding * (abs(a) + abs(b) + abs(c));
+            const T half = abs(x_[row]) * hx + abs(y_[row]) * hy + abs(z_[row]) * hz;
+            const T reach = half + rounding * (half + (abs(a) + abs(b) + abs(c)));
             const T beyond = middle - reach;
             least[row] = beyond > T(0) ? beyond : T(0);
             most[row] = middle + reach;

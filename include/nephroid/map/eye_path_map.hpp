@@ -15,7 +15,7 @@ namespace nephroid {
 /// What the splatter knows of a leaf beyond its points.
 template <Scalar T>
 struct EyePathLeaf {
-    std::array<T, 3> middle, half; ///< of its box, relative to the tree's origin; half its extents
+    std::array<T, 3> middle, half; ///< of its box, relative to the tree's origin, and how far it reaches from there
     std::array<T, 3>
         normal; ///< in the middle of its vertices' normals, none of which is further from it than `spread`:
     T spread;   ///< one test for a whole leaf that faces a photon

@@ -78,7 +78,7 @@ public:
         if (!flight)
             return end(Fate::invalid);
         for (Tangent<V>& tangent : photon_.differential) {
-            tangent.d_position = (*flight)(tangent).d_position;
+            tangent.d_position = (*flight)(tangent).d_position; // its d_direction stays as it is
             bring_into_range(tangent);
         }
         if constexpr (HasPosition<H, V>)
@@ -232,7 +232,7 @@ private:
 /// Follows one photon along its specular path.
 ///
 /// @param scene    the renderer's, see `Scene`
-/// @param photon   as emitted, and no more afterwards: it is the one that walks
+/// @param photon   as emitted; used up
 /// @param sampler  the photon's own stream of numbers, from which the scene and Russian roulette draw
 /// @param limits   on the path
 /// @param account  gets the photon's flux by reason, except for what is deposited: that is the caller's to book

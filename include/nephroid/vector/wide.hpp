@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT
-/// @file  Vectors in the next wider scalar, where products of what was measured in this one are exact.
+/// @file  Vectors in the next wider scalar: of floats in double, where their products are exact.
 #pragma once
 
 #include "nephroid/vector/stable.hpp"
 #include "nephroid/vector/traits.hpp"
 
 #include <array>
-#include <cstddef>
 #include <type_traits>
 
 namespace nephroid::detail {
 
-/// A vector's components where their products neither overflow nor vanish: in double for float.
+/// A vector's components: of floats in double, where their products neither overflow nor vanish; else as they are.
 template <Vector3 V>
 using Wide3 = std::array<wider_t<scalar_t<V>>, 3>;
 

@@ -42,7 +42,8 @@ struct SheetNode {
     std::array<double, 2> slope; ///< of the weight, by the samples
 };
 
-/// Photons that keep apart determine derivatives by fewer, from smaller cells; what chance leaves of them does not.
+/// How many a cell is to have. Photons that keep apart determine derivatives by fewer, so that cells may be smaller; where
+/// chance takes some of them out, they keep apart no more.
 ///
 /// @param share  of the light's photons that chance sent on this sheet's path, 1 for all
 [[nodiscard]] inline double photons_per_cell(bool stratified, double share) {

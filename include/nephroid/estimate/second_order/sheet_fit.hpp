@@ -8,7 +8,9 @@
 #include "nephroid/estimate/second_order/sheet_cells.hpp"
 #include "nephroid/estimate/second_order/smoothing_rule.hpp"
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace nephroid::detail {

@@ -5,7 +5,10 @@
 #include "nephroid/estimate/second_order/sheet_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 
 namespace nephroid::detail {
