@@ -38,7 +38,6 @@ channel() { # file, channel, channels
 # Sets `difference` and `ratio` (of the sums) of a picture to one of ours, times a factor.
 compare() { # picture, our picture, [channel, channels, factor]
     difference="" ratio=""
-    [ "$(wc -c <"$1")" -gt $((4 * size * size * ${4:-1})) ] || fail "$1 has too few pixels"
     ! is_sanitized || return 0
     channel "$1" "${3:-0}" "${4:-1}" >a.txt
     channel "$2.pfm" 0 1 >b.txt
@@ -54,10 +53,11 @@ at_most() { # what, value, bound
     echo "$1: $2 (at most $3)"
 }
 
-run() { # program, arguments
+run() { # program, picture, more arguments
     program=$1
     shift
     "$programs/drop_in_$program" "$@" >"$program.txt" || fail "$program $*"
+    [ "$(wc -c <"$1")" -gt $((4 * size * size)) ] || fail "$program: its picture has too few pixels"
 }
 
 own sun ball --emit 50000 --smoothing 5
