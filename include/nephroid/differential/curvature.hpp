@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <concepts>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <variant>
@@ -70,15 +71,6 @@ template <Vector3 V>
     return {make_vector<V>(k, zero, zero), make_vector<V>(zero, k, zero), make_vector<V>(zero, zero, k)};
 }
 
-namespace detail {
-template <Vector3 V>
-[[nodiscard]] scalar_t<V> largest_component(const V& d) {
-    using t = vector_traits<V>;
-    using T = scalar_t<V>;
-    return (std::max)({T(abs(T(t::x(d)))), T(abs(T(t::y(d)))), T(abs(T(t::z(d))))});
-}
-} // namespace detail
-
 /// A surface of parameters u, v with derivatives of position and of the (unit) shading normal, as pbrt and Mitsuba
 /// hits carry them. dx = a dpdu + b dpdv is solved in the least-squares sense.
 template <Vector3 V>
@@ -112,9 +104,7 @@ private:
 
     /// The same surface in parameters of about the unit of length, for parameters so small that squares overflow.
     [[nodiscard]] ParametricCurvature in_range() const {
-        const auto scale = [](const V& d) {
-            return scalar_t<V>(1) / (std::max)(scalar_t<V>(1), detail::largest_component(d));
-        };
+        const auto scale = [](const V& d) { return scalar_t<V>(1) / (std::max)(scalar_t<V>(1), largest_component(d)); };
         const scalar_t<V> u = scale(dpdu), v = scale(dpdv);
         return {u * dpdu, v * dpdv, u * dndu, v * dndv};
     }
@@ -139,8 +129,8 @@ template <Vector3 V>
 interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
     using T = scalar_t<V>;
     using W = wider_t<T>;
-    // Below the smallest normal number of T a square has lost its digits, or the gradients do not fit into T; from that
-    // one's inverse on it is the inverse that has lost them, or the gradients.
+    // Below the smallest normal number of T a square has lost its digits, or the gradients do not fit into T; from
+    // that one's inverse on it is the inverse that has lost them, or the gradients.
     const T least = (std::numeric_limits<T>::min)(), most = T(1) / least;
     const auto wide_e1 = widened(e1), wide_e2 = widened(e2), face = wide_cross<V>(wide_e1, wide_e2);
     const V d1 = n1 - n0, d2 = n2 - n0;
@@ -159,11 +149,13 @@ interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const 
                                     projected(d2)};
 }
 
-/// The factor that brings the longest of these to about the unit of length; 0 where there is none.
+/// The factor that brings the longest of some vectors to about the unit of length; 0 where there is none.
 template <Vector3 V>
-[[nodiscard]] scalar_t<V> to_unit(const V& a, const V& b, const V& c) {
+[[nodiscard]] scalar_t<V> to_unit(std::initializer_list<V> vectors) {
     using T = scalar_t<V>;
-    const T largest = (std::max)({largest_component(a), largest_component(b), largest_component(c)});
+    T largest(0);
+    for (const V& v : vectors)
+        largest = (std::max)(largest, largest_component(v));
     return largest >= (std::numeric_limits<T>::min)() ? T(1) / largest : T(0);
 }
 } // namespace detail
@@ -182,7 +174,7 @@ template <Vector3 V>
         return *curvature;
     // The same triangle and its normals in units of their own: how long the normals are does not matter, and the
     // gradients are in the inverse of the edges' unit.
-    const T s = detail::to_unit(e1, e2, e1), n = detail::to_unit(n0, n1, n2);
+    const T s = detail::to_unit({e1, e2}), n = detail::to_unit({n0, n1, n2});
     auto curvature = detail::interpolated_in_range<V>(s * e1, s * e2, n * n0, n * n1, n * n2, b1, b2);
     if (!curvature)
         return {zero_vector<V>(), zero_vector<V>(), zero_vector<V>(), zero_vector<V>()};

@@ -130,11 +130,6 @@ private:
         return T(64) * std::numeric_limits<T>::epsilon() * largest_component(position_);
     }
 
-    [[nodiscard]] static T largest_component(const V& v) {
-        using t = vector_traits<V>;
-        return (std::max)({T(abs(T(t::x(v)))), T(abs(T(t::y(v)))), T(abs(T(t::z(v))))});
-    }
-
     const Tracer* tracer_ = nullptr;
     V position_ = zero_vector<V>();
     V geometric_normal_ = zero_vector<V>();

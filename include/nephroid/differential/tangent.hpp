@@ -40,7 +40,8 @@ inline constexpr T longest_tangent = detail::power_of_two<T>(
     (std::min)(std::numeric_limits<T>::max_exponent / 2, std::numeric_limits<wider_t<T>>::max_exponent / 4) - 12);
 
 /// Scales a tangent down where it has outgrown that: between curved mirrors tangents grow exponentially, and what
-/// overflows ends as NaN. Such a footprint is still far too long, and the excess policy sees it (footprint/policies.hpp).
+/// overflows ends as NaN. Such a footprint is still far too long, and the excess policy sees it
+/// (footprint/policies.hpp).
 template <Vector3 V>
 void bring_into_range(Tangent<V>& tangent) {
     using T = scalar_t<V>;
@@ -48,8 +49,7 @@ void bring_into_range(Tangent<V>& tangent) {
     const auto sum = [](const V& v) -> T { return abs(T(t::x(v))) + abs(T(t::y(v))) + abs(T(t::z(v))); };
     if (!(sum(tangent.d_position) + sum(tangent.d_direction) > longest_tangent<T>)) // one branch, nearly always taken
         return;
-    const auto largest = [](const V& v) { return (std::max)({T(abs(t::x(v))), T(abs(t::y(v))), T(abs(t::z(v)))}); };
-    const T reach = (std::max)(largest(tangent.d_position), largest(tangent.d_direction));
+    const T reach = (std::max)(largest_component(tangent.d_position), largest_component(tangent.d_direction));
     if (!(reach > longest_tangent<T>))
         return;
     const T scale = longest_tangent<T> / reach;

@@ -29,7 +29,8 @@ struct PhotonPass {
     std::optional<double> smoothing{};
     WalkLimits limits{};
     /// Called between batches (of up to 8,192 photons in `splat_caustics`, 65,536 in `trace_photons`) with the photons
-    /// done so far in this pass, from the calling thread; false stops the pass. The picture then holds the photons that `Statistics::emitted` counts, each with its share of `total`.
+    /// done so far in this pass, from the calling thread; false stops the pass. The picture then holds the photons that
+    /// `Statistics::emitted` counts, each with its share of `total`.
     std::function<bool(std::uint64_t)> progress{};
 };
 

@@ -97,12 +97,20 @@ struct Normalize {
     }
 };
 
+struct LargestComponent {
+    template <Vector3 V>
+    [[nodiscard]] scalar_t<V> operator()(const V& a) const {
+        using t = vector_traits<V>;
+        using T = scalar_t<V>;
+        return (std::max)({T(abs(T(t::x(a)))), T(abs(T(t::y(a)))), T(abs(T(t::z(a))))});
+    }
+};
+
 struct DirectionOf {
     template <Vector3 V>
     [[nodiscard]] V operator()(const V& a) const {
         using t = vector_traits<V>;
-        using T = scalar_t<V>;
-        const T largest = (std::max)({T(abs(T(t::x(a)))), T(abs(T(t::y(a)))), T(abs(T(t::z(a))))});
+        const scalar_t<V> largest = LargestComponent{}(a);
         return Normalize{}(t::make(t::x(a) / largest, t::y(a) / largest, t::z(a) / largest));
     }
 };
@@ -121,6 +129,7 @@ inline constexpr detail::Cross cross{};         ///< a × b, each component free
 inline constexpr detail::Length2 length2{};     ///< |a|²
 inline constexpr detail::Length length{};       ///< |a|
 inline constexpr detail::Normalize normalize{}; ///< a / |a|; a must not be zero
+inline constexpr detail::LargestComponent largest_component{}; ///< the largest |aᵢ|
 /// a / |a| for a of any length but zero, also where |a|² would underflow or overflow.
 inline constexpr detail::DirectionOf direction_of{};
 inline constexpr detail::AllFinite all_finite{}; ///< no component is NaN or infinite

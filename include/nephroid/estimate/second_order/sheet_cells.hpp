@@ -42,8 +42,8 @@ struct SheetNode {
     std::array<double, 2> slope; ///< of the weight, by the samples
 };
 
-/// How many a cell is to have. Photons that keep apart determine derivatives by fewer, so that cells may be smaller; where
-/// chance takes some of them out, they keep apart no more.
+/// How many photons a cell is to have. Those that keep apart determine derivatives by fewer, so that cells may be
+/// smaller; where chance takes some of them out, they keep apart no more.
 ///
 /// @param share  of the light's photons that chance sent on this sheet's path, 1 for all
 [[nodiscard]] inline double photons_per_cell(bool stratified, double share) {

@@ -51,8 +51,8 @@ namespace nephroid::detail {
     return metric.solve().value_or(cell.metric);
 }
 
-/// Gives a cell the frame of the photon nearest to its middle, and its metric; none where its photons and those around it
-/// span nothing.
+/// Gives a cell the frame of the photon nearest to its middle, and its metric; none where its photons and those around
+/// it span nothing.
 inline void choose_frame(SheetCell& cell, const SheetCells& cells, const PathSamples& photons) {
     const EmissionCells& grid = cells.grid();
     const auto inside = grid.photons(cell.square);

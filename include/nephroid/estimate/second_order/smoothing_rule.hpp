@@ -73,9 +73,9 @@ struct PhotonDensity {
 /// S from log Q for the photons of an area light. Two things are not as for two emission coordinates: samples of four
 /// numbers are hardly stratified, so that the variance falls with 1/s² for either kind of sequence, and where the slice
 /// of the map that a footprint follows has a fold, the light of all slices together is smooth and thin footprints are
-/// noise alone. The 0.923 of two coordinates and random photons follows from the model of bias and variance above; the 1.2 and
-/// 1.5 here do not: no such model was made for four coordinates, they were fitted to one picture (ring-disk-zoom, a ring
-/// lit by a small disk) with 20,000 photons.
+/// noise alone. The 0.923 of two coordinates and random photons follows from the model of bias and variance above; the
+/// 1.2 and 1.5 here do not: no such model was made for four coordinates, they were fitted to one picture
+/// (ring-disk-zoom, a ring lit by a small disk) with 20,000 photons.
 [[nodiscard]] inline Symmetric2 area_smoothing_tensor(const Symmetric2& log_q, bool stratified,
                                                       const SmoothingBounds& bounds) {
     const double s = (stratified ? 1.2 : 1.5) * std::pow(detail::bias_left(log_q), -1.0 / 5);
