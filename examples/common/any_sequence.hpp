@@ -4,9 +4,9 @@
 
 #include "common/command_line.hpp"
 
-#include "nephroid/emission/sequence/halton.hpp"
-#include "nephroid/emission/sequence/random.hpp"
-#include "nephroid/emission/sequence/sobol.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/sequence/random.hpp"
+#include "nephroid/sequence/sobol.hpp"
 
 #include <variant>
 

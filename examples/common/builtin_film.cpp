@@ -3,9 +3,9 @@
 
 #include "common/command_line.hpp"
 
-#include "reference/ball.hpp"
-#include "reference/ring.hpp"
-#include "reference/wave.hpp"
+#include "nephroid/quality/reference/ball.hpp"
+#include "nephroid/quality/reference/ring.hpp"
+#include "nephroid/quality/reference/wave.hpp"
 
 #include <algorithm>
 #include <array>
@@ -107,20 +107,21 @@ double ghost_margin(const BuiltinFilm& film, double smoothing, double emitted) {
 }
 
 std::optional<std::vector<double>> exact_picture(const BuiltinFilm& film, unsigned threads) {
+    ThreadExecutor executor(threads);
     const auto& [x_min, x_max, y_min, y_max] = film.view;
     const reference::Film rectangle{
         x_min, x_max, y_min, y_max, static_cast<int>(film.width), static_cast<int>(film.height)};
     if (film.scene.starts_with("wave"))
-        return reference::wave({.amplitude = amplitude_of(film.scene), .fresnel = film.fresnel}, rectangle, threads);
+        return reference::wave({.amplitude = amplitude_of(film.scene), .fresnel = film.fresnel}, rectangle, executor);
     if (film.scene == "ring" || film.scene == "ring-zoom")
         return reference::ring(
             {.reflections = film.one_reflection ? reference::Reflections::one : reference::Reflections::any}, rectangle,
-            threads);
+            executor);
     if (film.scene == "ball" || film.scene == "ball-point")
         return reference::ball(
             {.source = film.scene == "ball-point" ? reference::BallLight::point : reference::BallLight::collimated,
              .fresnel = film.fresnel},
-            rectangle, threads);
+            rectangle, executor);
     return std::nullopt;
 }
 

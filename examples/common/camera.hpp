@@ -4,7 +4,7 @@
 
 #include "common/ray.hpp"
 
-#include "nephroid/emission/sequence/hash.hpp"
+#include "nephroid/sequence/hash.hpp"
 #include "nephroid/vector/error.hpp"
 
 #include <cmath>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "nephroid/emission/light.hpp"
-#include "nephroid/emission/sequence/sequence.hpp"
 #include "nephroid/emission/spread.hpp"
-#include "nephroid/transport/executor.hpp"
+#include "nephroid/execution/executor.hpp"
+#include "nephroid/sequence/sequence.hpp"
 #include "nephroid/transport/walk.hpp"
 
 #include <cmath>

@@ -7,7 +7,7 @@
 
 #include "nephroid/differential/reflection.hpp"
 #include "nephroid/differential/refraction.hpp"
-#include "nephroid/transport/executor.hpp"
+#include "nephroid/execution/executor.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -4,7 +4,7 @@
 
 #include "common/scene.hpp"
 
-#include "nephroid/emission/standard_lights.hpp"
+#include "nephroid/emission/light/standard_lights.hpp"
 
 #include <array>
 #include <optional>

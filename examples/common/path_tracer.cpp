@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/path_tracer.hpp"
 
-#include "nephroid/emission/sequence/sequence.hpp"
+#include "nephroid/sequence/sequence.hpp"
 #include "nephroid/vector/text.hpp"
 
 #include <algorithm>

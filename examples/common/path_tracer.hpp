@@ -5,7 +5,7 @@
 #include "common/builtin_cases.hpp"
 #include "common/path_tracer/pilot.hpp"
 
-#include "nephroid/transport/executor.hpp"
+#include "nephroid/execution/executor.hpp"
 
 #include <cstdint>
 #include <functional>

@@ -2,7 +2,7 @@
 #include "nephroid/emission/aligned_basis.hpp"
 
 #include "nephroid/differential/transfer.hpp"
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/emission/warp.hpp"
 #include "nephroid/vector/glm.hpp"
 

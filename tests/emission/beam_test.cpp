@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/emission/beam.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/emission/warp.hpp"
 #include "nephroid/vector/glm.hpp"
 

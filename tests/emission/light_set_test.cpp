@@ -5,7 +5,7 @@
 
 #include "emission/light/light_laws.hpp"
 #include "nephroid/emission/emission_sample.hpp"
-#include "nephroid/emission/standard_lights.hpp"
+#include "nephroid/emission/light/standard_lights.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/emission/target.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

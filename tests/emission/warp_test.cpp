@@ -3,7 +3,7 @@
 
 #include "emission/statistics.hpp"
 #include "nephroid/emission/cone.hpp"
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

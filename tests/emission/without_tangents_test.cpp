@@ -2,8 +2,8 @@
 #include "nephroid/emission/without_tangents.hpp"
 
 #include "nephroid/emission/light/point.hpp"
-#include "nephroid/emission/sequence/halton.hpp"
-#include "nephroid/emission/sequence/sequence.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/sequence/sequence.hpp"
 
 #include "nephroid/vector/glm.hpp"
 

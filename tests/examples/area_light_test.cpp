@@ -5,8 +5,8 @@
 #include "support/first_order.hpp"
 #include "support/is_sanitized.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
-#include "nephroid/estimate/caustics.hpp"
+#include "nephroid/sequence/random.hpp"
+#include "nephroid/caustics.hpp"
 #include "nephroid/quality/error.hpp"
 #include "nephroid/quality/exposure.hpp"
 #include "nephroid/vector/glm.hpp"

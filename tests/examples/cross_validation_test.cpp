@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // How near the smoothing that cross-validation chooses comes to the best one, which a sweep against the exact picture
 // finds: for a light of which nothing is known but the photons.
-#include "nephroid/estimate/cross_validation.hpp"
+#include "nephroid/smoothing/cross_validation.hpp"
 
 #include "common/builtin_cases.hpp"
-#include "reference/ring.hpp"
-#include "reference/wave.hpp"
+#include "nephroid/quality/reference/ring.hpp"
+#include "nephroid/quality/reference/wave.hpp"
 #include "support/first_order.hpp"
 #include "support/is_sanitized.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
-#include "nephroid/estimate/caustics.hpp"
+#include "nephroid/sequence/random.hpp"
+#include "nephroid/caustics.hpp"
 #include "nephroid/quality/error.hpp"
 #include "nephroid/vector/glm.hpp"
 

@@ -3,7 +3,7 @@
 
 #include "examples/worlds.hpp"
 
-#include "nephroid/emission/sequence/halton.hpp"
+#include "nephroid/sequence/halton.hpp"
 #include "nephroid/transport/walk.hpp"
 
 #include <doctest/doctest.h>

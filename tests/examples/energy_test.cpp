@@ -4,8 +4,8 @@
 #include "common/builtin_cases.hpp"
 #include "support/is_sanitized.hpp"
 
-#include "nephroid/emission/sequence/halton.hpp"
-#include "nephroid/estimate/caustics.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/caustics.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

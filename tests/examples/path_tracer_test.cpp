@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // The path traced reference against answers that do not come from tracing paths: sums along the light's own way, and
 // closed forms under a uniform sky.
-#include "reference/compare.hpp" // before the library's `dot`, which its own would not be looked for behind
+#include "quality/reference/compare.hpp" // before the library's `dot`, which its own would not be looked for behind
 
 #include "common/path_tracer.hpp"
-#include "reference/ball.hpp"
-#include "reference/fresnel.hpp"
-#include "reference/quadrature.hpp"
-#include "reference/ring.hpp"
+#include "nephroid/quality/reference/ball.hpp"
+#include "nephroid/quality/reference/fresnel.hpp"
+#include "nephroid/quality/reference/quadrature.hpp"
+#include "nephroid/quality/reference/ring.hpp"
 
-#include "nephroid/emission/sequence/halton.hpp"
+#include "nephroid/sequence/halton.hpp"
 #include "nephroid/transport/walk.hpp"
 
 #include <doctest/doctest.h>
@@ -62,7 +62,7 @@ private:
     std::array<double, D> step_{};
 };
 
-/// The light of a disk that faces the origin, reflected by the half cylinder of reference/ring.hpp, taken along its own
+/// The light of a disk that faces the origin, reflected by the half cylinder of nephroid/quality/reference/ring.hpp, taken along its own
 /// way: from a point of the disk to a column of the mirror, and from there on, seen from above, along chords of the
 /// circle or out where there is no mirror. What the column reflects lands on a line on the floor, and its density along
 /// the line is known, as the height at which light meets the column says how far it gets.
@@ -165,7 +165,7 @@ private:
     bool once_ = false;
 };
 
-/// The light of a sphere that sends 16 W/sr, refracted twice by the ball of reference/ball.hpp. Parallel rays of the
+/// The light of a sphere that sends 16 W/sr, refracted twice by the ball of nephroid/quality/reference/ball.hpp. Parallel rays of the
 /// sphere's light make a disk: they are a lattice over directions and disks.
 [[nodiscard]] exact::Image ball_sums(double radius, const exact::Film& film, std::size_t rays) {
     exact::Image image(std::size_t(film.width) * std::size_t(film.height));

@@ -4,8 +4,8 @@
 
 #include "examples/worlds.hpp"
 
-#include "nephroid/emission/sequence/halton.hpp"
-#include "nephroid/emission/standard_lights.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/emission/light/standard_lights.hpp"
 #include "nephroid/transport/walk.hpp"
 
 #include <doctest/doctest.h>

@@ -2,13 +2,13 @@
 // What second-order splatting reaches against the exact caustics without any smoothing given: 20,000 photons that
 // arrive, 512 × 512 pixels, the pixel filter on.
 #include "common/builtin_cases.hpp"
-#include "reference/ring.hpp"
-#include "reference/wave.hpp"
+#include "nephroid/quality/reference/ring.hpp"
+#include "nephroid/quality/reference/wave.hpp"
 #include "support/first_order.hpp"
 #include "support/is_sanitized.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
-#include "nephroid/estimate/caustics.hpp"
+#include "nephroid/sequence/random.hpp"
+#include "nephroid/caustics.hpp"
 #include "nephroid/quality/error.hpp"
 #include "nephroid/quality/exposure.hpp"
 #include "nephroid/vector/glm.hpp"

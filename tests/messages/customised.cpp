@@ -29,7 +29,7 @@ struct MyLaser { // emission/light.hpp
     double power() const { return nephroid::flux_traits<Colour>::power(flux); }
 };
 
-struct MySequence { // emission/sequence/sequence.hpp
+struct MySequence { // sequence/sequence.hpp
     static constexpr bool stratified = true;
     template <std::floating_point T>
     T sample(std::uint64_t index, std::uint32_t dimension) const {
@@ -83,13 +83,13 @@ int main() {
     using Policies =
         nephroid::SplatPolicies<Triweight, nephroid::PixelFilter, nephroid::DiscardCollapsed, DiscardNeedles>;
     nephroid::PhotonSplatter<V, Colour, Policies> splatter(map);
-    const auto executor = [](std::size_t count, auto&& task) { // transport/executor.hpp
+    const auto executor = [](std::size_t count, auto&& task) { // execution/executor.hpp
         for (std::size_t i = 0; i < count; ++i)
             task(i);
     };
     nephroid::splat_caustics(Adapter{}, MyLaser{Vec3(0, 0, 1), Vec3(0, 0, -1), 1, 1}, splatter, {.count = 16},
                              MySequence{}, executor);
     float film = 0;
-    splatter.for_each([&](std::size_t, const Colour& irradiance) { film += irradiance; }); // transport/sink.hpp
+    splatter.for_each([&](std::size_t, const Colour& irradiance) { film += irradiance; }); // receiver/sink.hpp
     return film >= 0 ? 0 : 1;
 }

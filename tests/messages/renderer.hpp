@@ -3,8 +3,8 @@
 #pragma once
 
 #include "nephroid/emission/light/directional.hpp"
-#include "nephroid/emission/sequence/halton.hpp"
-#include "nephroid/estimate/caustics.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/caustics.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file  Where tangents outgrow their scalar, and where a ray lies in its surface to rounding: bounded and counted, or ended
 ///        and counted, never infinity or NaN.
-#include "nephroid/estimate/splat.hpp"
+#include "nephroid/splat/splat.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

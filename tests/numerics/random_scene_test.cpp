@@ -6,9 +6,9 @@
 #include "common/scene.hpp"
 #include "support/space.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
-#include "nephroid/emission/standard_lights.hpp"
-#include "nephroid/estimate/caustics.hpp"
+#include "nephroid/sequence/random.hpp"
+#include "nephroid/emission/light/standard_lights.hpp"
+#include "nephroid/caustics.hpp"
 
 #include <doctest/doctest.h>
 

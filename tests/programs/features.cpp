@@ -5,8 +5,8 @@
 /// Every variant takes the same path through the same two planes: straight down onto the mirror (or glass) at 45 degrees, and
 /// on to the receiver. So what differs is what the feature costs.
 #include <nephroid/emission/light/directional.hpp>
-#include <nephroid/emission/sequence/halton.hpp>
-#include <nephroid/emission/sequence/sequence.hpp>
+#include <nephroid/sequence/halton.hpp>
+#include <nephroid/sequence/sequence.hpp>
 #include <nephroid/transport/walk.hpp>
 #include <nephroid/vector/glm.hpp>
 
@@ -19,7 +19,7 @@
 #elif defined(AREA_LIGHT)
 #include <nephroid/emission/light/quad.hpp>
 #elif defined(ALL_LIGHTS)
-#include <nephroid/emission/standard_lights.hpp>
+#include <nephroid/emission/light/standard_lights.hpp>
 #endif
 
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/quality/exponential_sums.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 
 #include <doctest/doctest.h>
 

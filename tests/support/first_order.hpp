@@ -2,7 +2,7 @@
 /// @file  The policies of plain splatting: each photon where it lands, all with the same smoothing.
 #pragma once
 
-#include "nephroid/estimate/splat.hpp"
+#include "nephroid/splat/splat.hpp"
 
 namespace nephroid::tests {
 

@@ -3,7 +3,7 @@
 
 #include "transport/tiny_scenes.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 
 #include <cstring>
 #include <set>

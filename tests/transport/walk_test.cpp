@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "transport/follow.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 
 #include "support/foreign_vectors.hpp"
 

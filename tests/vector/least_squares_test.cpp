@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/vector/least_squares.hpp"
 
-#include "nephroid/estimate/second_order/path_derivatives.hpp"
+#include "nephroid/smoothing/second_order/path_derivatives.hpp"
 
 #include <doctest/doctest.h>
 

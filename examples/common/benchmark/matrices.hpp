@@ -5,9 +5,9 @@
 #include "common/benchmark/measure.hpp"
 #include "common/benchmark/table.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
-#include "nephroid/emission/sequence/sequence.hpp"
 #include "nephroid/footprint/ellipse.hpp"
+#include "nephroid/sequence/random.hpp"
+#include "nephroid/sequence/sequence.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <glm/mat3x3.hpp>

@@ -10,9 +10,9 @@
 #include "common/compare/memory.hpp"
 #include "common/stopwatch.hpp"
 
-#include "nephroid/estimate/caustics.hpp"
-#include "nephroid/estimate/trace_photons.hpp"
-#include "nephroid/estimate/traced_batch.hpp"
+#include "nephroid/caustics.hpp"
+#include "nephroid/gather/trace_photons.hpp"
+#include "nephroid/pass/traced_batch.hpp"
 #include "nephroid/relaxation/relax.hpp"
 
 #include <limits>

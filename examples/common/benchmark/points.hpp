@@ -2,8 +2,8 @@
 /// @file  What is benchmarked on: eye path vertices and photons on a unit square, and nanoflann over them.
 #pragma once
 
-#include "nephroid/emission/sequence/halton.hpp"
-#include "nephroid/emission/sequence/sequence.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/sequence/sequence.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <nanoflann.hpp>

@@ -6,7 +6,7 @@
 #include "common/benchmark/points.hpp"
 #include "common/benchmark/table.hpp"
 
-#include "nephroid/estimate/caustics.hpp"
+#include "nephroid/caustics.hpp"
 
 #include <cmath>
 

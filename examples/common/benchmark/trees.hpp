@@ -6,8 +6,8 @@
 #include "common/benchmark/points.hpp"
 #include "common/benchmark/table.hpp"
 
-#include "nephroid/estimate/nearest_photons.hpp"
-#include "nephroid/map/eye_path_map.hpp"
+#include "nephroid/gather/nearest_photons.hpp"
+#include "nephroid/receiver/eye_path_map.hpp"
 #include "nephroid/relaxation/relax.hpp"
 
 namespace nephroid::examples::benchmarks {

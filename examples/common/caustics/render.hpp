@@ -7,8 +7,8 @@
 #include "common/caustics/report.hpp"
 #include "common/stopwatch.hpp"
 
-#include "nephroid/estimate/caustics.hpp"
-#include "nephroid/estimate/cross_validation.hpp"
+#include "nephroid/caustics.hpp"
+#include "nephroid/smoothing/cross_validation.hpp"
 
 #include <stdexcept>
 #include <variant>

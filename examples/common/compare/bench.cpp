@@ -5,7 +5,7 @@
 #include "common/image/pfm.hpp"
 #include "common/stopwatch.hpp"
 
-#include "nephroid/estimate/trace_photons.hpp"
+#include "nephroid/gather/trace_photons.hpp"
 #include "nephroid/quality/exposure.hpp"
 
 #include <algorithm>

@@ -7,8 +7,8 @@
 #include "common/errors.hpp"
 #include "common/stopwatch.hpp"
 
-#include "nephroid/map/eye_path_map.hpp"
-#include "nephroid/transport/executor.hpp"
+#include "nephroid/execution/executor.hpp"
+#include "nephroid/receiver/eye_path_map.hpp"
 
 #include <map>
 #include <memory>

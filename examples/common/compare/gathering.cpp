@@ -3,13 +3,13 @@
 
 #include "common/stopwatch.hpp"
 
-#include "nephroid/estimate/differential_map.hpp"
-#include "nephroid/estimate/diffusion.hpp"
-#include "nephroid/estimate/estimate_at.hpp"
-#include "nephroid/estimate/fixed_range.hpp"
-#include "nephroid/estimate/nearest_photons.hpp"
-#include "nephroid/estimate/progressive.hpp"
-#include "nephroid/estimate/trace_photons.hpp"
+#include "nephroid/gather/differential_map.hpp"
+#include "nephroid/gather/diffusion.hpp"
+#include "nephroid/gather/estimate_at.hpp"
+#include "nephroid/gather/fixed_range.hpp"
+#include "nephroid/gather/nearest_photons.hpp"
+#include "nephroid/gather/progressive.hpp"
+#include "nephroid/gather/trace_photons.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -3,8 +3,8 @@
 
 #include "common/stopwatch.hpp"
 
-#include "nephroid/estimate/caustics.hpp"
-#include "nephroid/estimate/progressive.hpp"
+#include "nephroid/caustics.hpp"
+#include "nephroid/gather/progressive.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/path_tracer/pilot.hpp"
 
-#include "nephroid/emission/sequence/sequence.hpp"
+#include "nephroid/sequence/sequence.hpp"
 
 #include <cmath>
 #include <iterator>

@@ -7,13 +7,13 @@
 #include "common/path_tracer/guide.hpp"
 #include "common/path_tracer/paths.hpp"
 
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 
 #include <functional>
 
 namespace nephroid::examples {
 
-/// An executor (transport/executor.hpp) of unknown kind.
+/// An executor (execution/executor.hpp) of unknown kind.
 using AnyExecutor = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
 
 /// What is known of where light comes from.

@@ -2,7 +2,7 @@
 /// @file  How wide an edge of known place has become: the distance over which the irradiance rises from 10% to 90%.
 #pragma once
 
-#include "nephroid/transport/executor.hpp"
+#include "nephroid/execution/executor.hpp"
 
 #include <array>
 #include <cmath>

@@ -3,8 +3,8 @@
 
 #include "common/stopwatch.hpp"
 
-#include "nephroid/estimate/estimate_at.hpp"
-#include "nephroid/estimate/nearest_photons.hpp"
+#include "nephroid/gather/estimate_at.hpp"
+#include "nephroid/gather/nearest_photons.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -6,7 +6,7 @@
 #include "common/image/image.hpp"
 #include "common/relaxation/subject.hpp"
 
-#include "nephroid/map/photon_map.hpp"
+#include "nephroid/gather/photon_map.hpp"
 
 #include <cstddef>
 #include <optional>

@@ -4,7 +4,7 @@
 
 #include "common/relaxation/options.hpp"
 
-#include "nephroid/transport/executor.hpp"
+#include "nephroid/execution/executor.hpp"
 
 #include <iosfwd>
 

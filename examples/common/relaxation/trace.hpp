@@ -5,7 +5,7 @@
 #include "common/caustic_share.hpp"
 #include "common/relaxation/subject.hpp"
 
-#include "nephroid/estimate/trace_photons.hpp"
+#include "nephroid/gather/trace_photons.hpp"
 
 #include <stdexcept>
 #include <variant>

@@ -3,7 +3,7 @@
 
 #include "common/builtin_film.hpp"
 
-#include "nephroid/estimate/second_order/policy.hpp"
+#include "nephroid/footprint/smoothing.hpp"
 
 #include <CLI/CLI.hpp>
 

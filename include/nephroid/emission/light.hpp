@@ -10,7 +10,7 @@
 
 namespace nephroid {
 
-/// A stream of numbers in [0, 1): `source.template next<T>()`, such as a `Sampler` (emission/sequence/sequence.hpp).
+/// A stream of numbers in [0, 1): `source.template next<T>()`, such as a `Sampler` (sequence/sequence.hpp).
 template <class S, class T>
 concept SampleSource = requires(S source) {
     { source.template next<T>() } -> std::convertible_to<T>;

@@ -2,7 +2,7 @@
 /// @file  The Fourier transform of a few points at many integer frequencies, summed directly.
 #pragma once
 
-#include "nephroid/transport/executor.hpp"
+#include "nephroid/execution/executor.hpp"
 
 #include <algorithm>
 #include <array>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "nephroid/relaxation/feature_search.hpp"
-#include "nephroid/transport/executor.hpp"
+#include "nephroid/execution/executor.hpp"
 
 #include <numeric>
 #include <utility>

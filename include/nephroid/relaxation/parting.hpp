@@ -2,7 +2,7 @@
 /// @file  Which way photons in the same place part.
 #pragma once
 
-#include "nephroid/emission/sequence/hash.hpp"
+#include "nephroid/sequence/hash.hpp"
 #include "nephroid/vector/frame.hpp"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 /// @file  The copy of the photons that relaxation works on: in the leaf order of a tree, where neighbours lie together.
 #pragma once
 
-#include "nephroid/map/point_tree.hpp"
+#include "nephroid/tree/point_tree.hpp"
 #include "nephroid/relaxation/photon_access.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 #include "emission/statistics.hpp"
 #include "nephroid/differential/transfer.hpp"
 #include "nephroid/emission/light.hpp"
-#include "nephroid/emission/sequence/random.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/emission/target.hpp"
 #include "nephroid/vector/glm.hpp"
 

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+/// @file  Standard photon mapping: the k nearest photons over the area that they lie in [Jensen 1996].
+#pragma once
+
+#include "nephroid/gather/differential_checking.hpp"
+#include "nephroid/gather/gather.hpp"
+
+#include <limits>
+
+namespace nephroid {
+
+struct NearestPhotonsOptions {
+    std::size_t count = 50;                                 ///< k >= 2: the bandwidth
+    double range = std::numeric_limits<double>::infinity(); ///< photons further away do not count, world units, > 0
+    bool differential_checking = false;                     ///< fewer photons where the light changes
+    DifferentialChecking checking{};                        ///< how, if so
+    double normal_distance = 1; ///< photons further than this many radii from the tangent plane do not count; 1 and
+                                ///< more leaves the sphere
+};
+
+/// Estimates irradiance as Σ Φ K(r²/R²)/R² over the photons nearest to a point, R the distance of the k-th.
+///
+/// Only photons on the side that the normal faces are looked for, so that k is the number that counts. The k-th photon
+/// gives R and nothing else: K is zero at the rim. That is the consistent choice. For photons spread at random with
+/// density ρ the other k − 1 lie uniformly in the disk and E[1/(π R²)] = ρ/(k − 1), so the estimate is unbiased for every
+/// kernel; counting the k-th in, as Σ Φ/(π R²) over all k does, makes the mean k/(k − 1) too large.
+///
+/// Where `range` holds fewer than k photons, R is the range. Where there are fewer than k in all and no range, R is
+/// the distance of the farthest. R is never less than what positions resolve there, four epsilon of the distance from the
+/// world's origin: where k photons lie in one place, the estimate is large, and not infinite.
+///
+/// ```cpp
+/// const nephroid::NearestPhotons estimate(map, {.count = 100}, nephroid::ConeKernel{});
+/// const float e = estimate(position, normal);
+/// ```
+///
+/// Calls from several threads at once are fine; each thread keeps room for k neighbours. A response must therefore not
+/// ask for another estimate of nearest photons itself.
+template <Vector3 V, Flux F, class K = BiweightKernel>
+    requires Kernel<K, scalar_t<V>>
+class NearestPhotons {
+public:
+    using T = scalar_t<V>;
+
+    /// @param map  is referred to, and must outlive the estimate
+    /// @param kernel  UniformKernel, ConeKernel (Jensen's with k = 1), BiweightKernel, … (footprint/kernel.hpp)
+    /// Throws std::invalid_argument for k < 2 (a single photon gives no area), and for lengths that are not positive.
+    NearestPhotons(const PhotonMap<V, F>& map, NearestPhotonsOptions options = {}, K kernel = {})
+        : map_(&map), options_(options), kernel_(kernel) {
+        constexpr const char* who = "nephroid::NearestPhotons";
+        if (options.count < 2)
+            invalid_argument(std::string(who) + ": count is " + std::to_string(options.count) +
+                             "; the farthest photon only sets the radius, so it must be at least 2");
+        detail::check_length(who, "range", options.range, true);
+        detail::check_length(who, "normal_distance", options.normal_distance, true);
+        if (options.differential_checking)
+            detail::check(options.checking, who);
+        range2_ = square(T(options.range));
+        const T epsilon = std::numeric_limits<T>::epsilon();
+        least_radius_ = square(T(4) * epsilon) * map.diagonal();
+    }
+    NearestPhotons(const PhotonMap<V, F>&&, NearestPhotonsOptions = {}, K = {}) = delete; // would refer to a temporary
+
+    /// The irradiance at a point of a surface; a position or normal that is not finite receives nothing.
+    /// @param normal  unit; photons on the other side do not count
+    [[nodiscard]] F operator()(const V& position, const V& normal) const {
+        return (*this)(position, normal, detail::NoResponse{});
+    }
+
+    /// The same with each photon's irradiance times response(direction of flight): the BRDF; the sum is radiance.
+    template <class Response>
+    [[nodiscard]] F operator()(const V& position, const V& normal, const Response& response) const {
+        F sum = flux_traits<F>::zero();
+        const std::size_t wanted = (std::min)(options_.count, map_->tree().slots());
+        if (wanted == 0 || !all_finite(position) || !all_finite(normal))
+            return sum;
+        const V relative = map_->tree().relative(position);
+        const std::span<Neighbour<T>> room = detail::neighbours<T>(wanted);
+        const std::size_t found =
+            map_->tree().nearest(relative, room, range2_, [&](std::size_t slot) { return map_->faces(slot, normal); });
+        const T least_radius =
+            least_radius_ > T(0)
+                ? (std::max)(least_radius_, T(4) * std::numeric_limits<T>::epsilon() * length(position))
+                : T(0);
+        const auto [neighbours, radius2] = disk(room.first(found), square(least_radius));
+        if (!(radius2 > T(0)))
+            return sum;
+
+        const T scale = T(1) / radius2, thickness2 = square(T(options_.normal_distance)) * radius2;
+        const bool slab = options_.normal_distance < 1;
+        const T inside = T(1) - std::numeric_limits<T>::epsilon(); // the rim, as seen from within
+        F rim = flux_traits<F>::zero();
+        std::size_t on_rim = 0;
+        for (const Neighbour<T>& n : neighbours) {
+            const bool is_on_rim = !(n.distance2 < radius2); // by itself: radius2 * (1 / radius2) may be less than 1
+            on_rim += std::size_t(is_on_rim);
+            if (slab && !(square(detail::height(*map_, n.slot, relative, normal)) < thickness2))
+                continue;
+            const T weight = kernel_(is_on_rim ? inside : T(n.distance2 * scale)) * scale;
+            detail::receive(is_on_rim ? rim : sum, *map_, n.slot, weight, response);
+        }
+        return on_rim > 1 ? F(sum + rim * T(1 - 1 / double(on_rim))) : sum;
+    }
+
+private:
+    struct Disk {
+        std::span<const Neighbour<T>> neighbours;
+        T radius2;
+    };
+
+    /// The photons that count, and the squared radius that they are taken to lie in.
+    [[nodiscard]] Disk disk(std::span<Neighbour<T>> found, T least_radius2) const {
+        const auto nearer = [](const Neighbour<T>& a, const Neighbour<T>& b) { return a.distance2 < b.distance2; };
+        if (found.empty())
+            return {found, T(0)};
+        bool complete = found.size() == options_.count;
+        if (options_.differential_checking) {
+            std::sort(found.begin(), found.end(), nearer);
+            const std::size_t checked = detail::checked_count<V, F>(*map_, found, options_.checking);
+            complete = complete || checked < found.size();
+            found = found.first(checked);
+        }
+        if (!complete && isfinite(range2_))
+            return {found, range2_};
+        const T farthest2 = std::max_element(found.begin(), found.end(), nearer)->distance2;
+        return {found, (std::max)(farthest2, least_radius2)};
+    }
+
+    const PhotonMap<V, F>* map_;
+    NearestPhotonsOptions options_;
+    K kernel_;
+    T range2_;
+    T least_radius_; ///< at the origin itself
+};
+
+} // namespace nephroid

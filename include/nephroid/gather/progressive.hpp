@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+/// @file  Progressive photon mapping: pass after pass of photons with a radius that shrinks, no end to their number.
+#pragma once
+
+#include "nephroid/gather/gather.hpp"
+#include "nephroid/execution/executor.hpp"
+
+#include <type_traits>
+
+namespace nephroid {
+
+namespace detail {
+inline void check_alpha(const char* who, double alpha) {
+    if (!(alpha > 0 && alpha <= 1))
+        invalid_argument(std::string(who) + ": alpha is " + text_of(alpha) + "; it must be in (0, 1], and below 1 " +
+                         "for the radius to shrink");
+}
+} // namespace detail
+
+/// The radius of pass after pass, the same for every vertex: r² ← r² (i + α)/(i + 1) after pass i = 1, 2, …, so that
+/// r² falls like i^(α−1): the mean of the passes' estimates loses its bias like that, and its variance like i^(−α).
+///
+/// With FixedRange, photons of each pass in a map of their own and estimates averaged over the passes, this is
+/// progressive photon mapping without statistics [Knaus and Zwicker 2011]. A photon's footprint is as wide as its
+/// smoothing s, so the same sequence of s makes photon differential splatting progressive, without any photon map:
+///
+/// ```cpp
+/// nephroid::ShrinkingRadius s({.radius = 10});
+/// for (std::uint64_t i = 0; i < passes; ++i, s.advance())
+///     nephroid::splat_caustics(scene, light, splatter, {.first = i * n, .count = n, .smoothing = s.radius()});
+/// // the splatter's sums over `passes` are the picture
+/// ```
+struct ShrinkingRadiusOptions {
+    double radius; ///< of the first pass, > 0: world units, or a smoothing
+    double alpha =
+        2.0 / 3; ///< in (0, 1]: what share of a pass's photons is kept as the radius shrinks; the error falls
+                 ///< fastest for 2/3
+};
+
+class ShrinkingRadius {
+public:
+    /// Throws std::invalid_argument for a radius that is not positive and finite and an α outside of (0, 1].
+    explicit ShrinkingRadius(ShrinkingRadiusOptions options)
+        : radius2_(options.radius * options.radius), alpha_(options.alpha) {
+        detail::check_length("nephroid::ShrinkingRadius", "radius", options.radius, false);
+        detail::check_alpha("nephroid::ShrinkingRadius", options.alpha);
+    }
+
+    /// Of the pass at hand.
+    [[nodiscard]] double radius() const { return std::sqrt(radius2_); }
+    /// Goes on to the next pass.
+    void advance() {
+        ++pass_;
+        radius2_ *= (pass_ + alpha_) / (pass_ + 1);
+    }
+
+private:
+    double radius2_, alpha_;
+    double pass_ = 0; ///< passes done
+};
+
+struct ProgressiveOptions {
+    double radius;          ///< r₀ > 0, world units: of every vertex at first
+    double alpha = 2.0 / 3; ///< in (0, 1]: the share of a pass's photons that is kept
+};
+
+/// Progressive photon mapping with statistics at every eye path vertex: each has a radius of its own, which shrinks as
+/// photons arrive, r² ← r² (n + αm)/(n + m) for m new ones, and the flux within it with it.
+/// Source: Hachisuka, Ogaki and Jensen 2008.
+///
+/// ```cpp
+/// nephroid::ProgressivePhotonMapping<Vec, float> progressive(vertices, &Vertex::position, &Vertex::normal,
+///                                                            {.radius = 0.05});
+/// for (std::uint64_t i = 0; i < passes; ++i) {
+///     const auto traced = nephroid::trace_photons(scene, nephroid::WithoutTangents(light),
+///                                                 {.first = i * n, .count = n}, sequence, executor);
+///     progressive.add(nephroid::PhotonMap(traced.deposits), n, executor);
+/// }
+/// const float e = progressive.irradiance(vertex);
+/// ```
+template <Vector3 V, Flux F>
+    requires ScalesFlux<F, scalar_t<V>>
+class ProgressivePhotonMapping {
+public:
+    using T = scalar_t<V>;
+
+    /// @param vertices  a random-access range; copied from
+    /// @param position  projection to V; finite
+    /// @param normal    projection to V; unit, photons on the other side do not count
+    /// Throws std::invalid_argument naming what cannot be.
+    template <std::ranges::random_access_range Vertices, class Position, class Normal>
+    ProgressivePhotonMapping(const Vertices& vertices, Position position, Normal normal, ProgressiveOptions options)
+        : alpha_(options.alpha) {
+        constexpr const char* who = "nephroid::ProgressivePhotonMapping";
+        detail::check_length(who, "radius", options.radius, false);
+        detail::check_alpha(who, options.alpha);
+        vertices_.reserve(std::size_t(std::ranges::size(vertices)));
+        for (const auto& vertex : vertices) {
+            const V x = std::invoke(position, vertex), n = std::invoke(normal, vertex);
+            if (!all_finite(x) || !(abs(length2(n) - T(1)) < T(0.01)))
+                invalid_argument(std::string(who) + ": vertex " + std::to_string(vertices_.size()) + " is at " +
+                                 detail::text_of(x) + " with the normal " + detail::text_of(n) +
+                                 "; positions must be finite and normals of unit length");
+            vertices_.push_back({x, n, options.radius * options.radius, 0, flux_traits<F>::zero()});
+        }
+    }
+
+    /// Adds a pass of photons.
+    ///
+    /// @param map      the pass's photons, and no others
+    /// @param emitted  the number that their fluxes were divided by at emission: the pass's count, > 0
+    /// @param executor who runs the work; the result does not depend on it
+    template <class E = SerialExecutor>
+        requires ExecutorArgument<E>
+    void add(const PhotonMap<V, F>& map, std::uint64_t emitted, E&& executor = E{}) {
+        if (emitted == 0)
+            invalid_argument("nephroid::ProgressivePhotonMapping::add: emitted is 0; it must be at least 1");
+        detail::for_each_index(executor, vertices_.size(), 256,
+                               [&](std::size_t i) { add_to(vertices_[i], map, double(emitted)); });
+        emitted_ += double(emitted);
+    }
+
+    /// The irradiance at a vertex, of all photons so far; zero before the first.
+    [[nodiscard]] F irradiance(std::size_t vertex) const {
+        const Statistic& v = vertices_[vertex];
+        if (emitted_ == 0)
+            return flux_traits<F>::zero();
+        return v.flux * T(1 / (pi<double> * v.radius2 * emitted_));
+    }
+    /// The radius at a vertex, world units.
+    [[nodiscard]] T radius(std::size_t vertex) const { return T(std::sqrt(vertices_[vertex].radius2)); }
+    /// The photons that a vertex is counted to have: n, which αm are added to in a pass with m.
+    [[nodiscard]] double photons(std::size_t vertex) const { return vertices_[vertex].photons; }
+    [[nodiscard]] std::size_t size() const { return vertices_.size(); }
+
+private:
+    struct Statistic {
+        V position, normal;
+        double radius2; ///< in double: thousands of passes multiply it
+        double photons;
+        F flux; ///< τ: within the radius, as if each pass had emitted one photon
+    };
+
+    void add_to(Statistic& v, const PhotonMap<V, F>& map, double emitted) const {
+        double met = 0;
+        F flux = flux_traits<F>::zero();
+        detail::for_each_within(map, v.position, v.normal, T(std::sqrt(v.radius2)), [&](std::size_t slot, T) {
+            ++met;
+            flux = flux + map.flux(slot);
+        });
+        if (met == 0)
+            return;
+        const double kept = (v.photons + alpha_ * met) / (v.photons + met);
+        v.flux = (v.flux + flux * T(emitted)) * T(kept);
+        v.radius2 *= kept;
+        v.photons += alpha_ * met;
+    }
+
+    std::vector<Statistic> vertices_;
+    double alpha_;
+    double emitted_ = 0;
+};
+
+} // namespace nephroid

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+/// @file  How far apart neighbouring points of a surface's sampling are.
+#pragma once
+
+#include "nephroid/tree/smallest.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+#include <numeric>
+#include <span>
+#include <vector>
+
+namespace nephroid {
+
+namespace detail {
+/// A few points, an array for each coordinate, so that loops over them are vectorised.
+template <Scalar T>
+struct FewPoints {
+    /// Those in the same place count once. Takes time in the square of their number.
+    FewPoints(std::span<const T> px, std::span<const T> py, std::span<const T> pz)
+        : room(4 * px.size()), x(room.data()), y(x + px.size()), z(y + px.size()), distance2(z + px.size()),
+          size(px.size()) {
+        for (std::size_t axis = 0; const std::span<const T> coordinate : {px, py, pz}) {
+            std::copy(coordinate.begin(), coordinate.end(), room.data() + size * axis);
+            middle[axis++] = std::accumulate(coordinate.begin(), coordinate.end(), T(0)) / T(size);
+        }
+        measure(middle[0], middle[1], middle[2]);
+        if (some_equally_far()) {
+            leave_copies_out();
+            measure(middle[0], middle[1], middle[2]);
+        }
+    }
+
+    FewPoints(const FewPoints&) = delete; // points into its own room
+    FewPoints& operator=(const FewPoints&) = delete;
+
+    /// Takes the squared distances of all points to a place.
+    void measure(T px, T py, T pz) {
+        for (std::size_t i = 0; i < size; ++i)
+            distance2[i] = square(x[i] - px) + square(y[i] - py) + square(z[i] - pz);
+    }
+
+    /// The nearest by the distances taken last, as many as there is room for; at most `size`.
+    void nearest(std::span<std::size_t> found) const {
+        T high(0);
+        for (std::size_t i = 0; i < size; ++i)
+            high = distance2[i] > high ? distance2[i] : high;
+        auto [limit, at_limit] = limit_of_smallest<T>({distance2, size}, found.size(), 0, high);
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            const bool is_at_limit = at_limit > 0 && distance2[i] == limit;
+            at_limit -= std::size_t(is_at_limit);
+            if (is_at_limit || distance2[i] < limit)
+                found[count++] = i;
+        }
+    }
+
+    /// For each of N points the sum of the squared distances to those that are nearest to it, itself among them.
+    ///
+    /// @param wanted  how many, at most `most`
+    template <std::size_t most, std::size_t N>
+    [[nodiscard]] std::array<T, N> sums_of_nearest(const std::array<std::size_t, N>& centres,
+                                                   std::size_t wanted) const {
+        std::array<T, N> cx, cy, cz;
+        for (std::size_t k = 0; k < N; ++k)
+            cx[k] = x[centres[k]], cy[k] = y[centres[k]], cz[k] = z[centres[k]];
+        // Every point sinks into the N ascending lists at once, by exchanges without a branch.
+        std::array<std::array<T, N>, most> lists;
+        for (auto& places : lists)
+            places.fill(std::numeric_limits<T>::infinity());
+        for (std::size_t i = 0; i < size; ++i) {
+            std::array<T, N> sinking;
+#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+            for (std::size_t k = 0; k < N; ++k)
+                sinking[k] = square(x[i] - cx[k]) + square(y[i] - cy[k]) + square(z[i] - cz[k]);
+            for (std::size_t place = 0; place < wanted; ++place) {
+                const std::array<T, N> own = sinking, other = lists[place];
+#pragma GCC unroll 1
+                for (std::size_t k = 0; k < N; ++k)
+                    lists[place][k] = own[k] < other[k] ? own[k] : other[k];
+#pragma GCC unroll 1
+                for (std::size_t k = 0; k < N; ++k)
+                    sinking[k] = own[k] < other[k] ? other[k] : own[k];
+            }
+        }
+        std::array<T, N> sums{};
+        for (std::size_t place = 0; place < wanted; ++place)
+            for (std::size_t k = 0; k < N; ++k)
+                sums[k] = sums[k] + lists[place][k];
+        return sums;
+    }
+
+    std::vector<T> room;
+    T *x, *y, *z, *distance2;
+    std::size_t size;
+    std::array<T, 3> middle;
+
+private:
+    /// Points in the same place are equally far from any; others hardly ever.
+    [[nodiscard]] bool some_equally_far() const {
+        int met = 0;
+        for (std::size_t i = 1; i < size; ++i)
+            for (std::size_t j = 0; j < i; ++j)
+                met |= int(distance2[j] == distance2[i]);
+        return met != 0;
+    }
+
+    void leave_copies_out() {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < size; ++i) {
+            int met = 0;
+            for (std::size_t j = 0; j < kept; ++j)
+                met |= int(x[j] == x[i]) & int(y[j] == y[i]) & int(z[j] == z[i]);
+            x[kept] = x[i], y[kept] = y[i], z[kept] = z[i];
+            kept += std::size_t(met == 0);
+        }
+        size = kept;
+    }
+};
+} // namespace detail
+
+/// The spacing p of a small cloud of points that sample a surface, such that a square lattice of side p gives p:
+/// from the distances to their nearest neighbours of the few points that lie nearest to the cloud's middle, whose
+/// neighbourhoods are whole.
+///
+/// The neighbours of a lattice point are at p (four), √2 p (four), so the mean squared distance to the nearest eight
+/// is 1.5 p²; a lattice stretched by foreshortening gives a spacing between its two sides, a random sampling of
+/// density ρ about 0.95/√ρ. With fewer points the neighbours at hand are taken, by the same rule. Points in the same
+/// place count once.
+///
+/// @return  world units; 0 if all points coincide or there is only one
+template <Scalar T>
+[[nodiscard]] T point_spacing(std::span<const T> x, std::span<const T> y, std::span<const T> z) {
+    constexpr std::size_t most_neighbours = 8, most_probes = 4;
+    detail::FewPoints<T> points(x, y, z);
+    if (points.size < 2)
+        return T(0);
+    const std::size_t probes = (std::min)(most_probes, points.size);
+    const std::size_t neighbours = (std::min)(most_neighbours, points.size - 1);
+    // The squared distances of the first n lattice neighbours add up to n p² for n <= 4 and to (2 n − 4) p² beyond.
+    const T lattice = neighbours <= 4 ? T(neighbours) : T(2 * neighbours - 4);
+
+    std::array<std::size_t, most_probes> centres{};
+    points.nearest(std::span(centres).first(probes));
+    std::array<T, most_probes> spacing2 = points.template sums_of_nearest<most_neighbours + 1>(centres, neighbours + 1);
+    for (T& sum : spacing2)
+        sum = sum / lattice;
+    std::sort(spacing2.begin(), spacing2.begin() + std::ptrdiff_t(probes));
+    return sqrt(T(0.5) * (spacing2[(probes - 1) / 2] + spacing2[probes / 2]));
+}
+
+} // namespace nephroid

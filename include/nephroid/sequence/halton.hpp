@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: MIT
+/// @file  The Halton sequence [Halton 1960] with Faure's permutations of the digits [Faure 1992].
+#pragma once
+
+#include "nephroid/sequence/hash.hpp"
+#include "nephroid/sequence/random.hpp"
+#include "nephroid/sequence/sequence.hpp"
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace nephroid {
+
+/// Faure's permutation of the digits 0 to Base - 1. It leaves 0 where it is, so that the infinitely many leading
+/// zeros of an index stay zeros, and Base - 1 too.
+///
+/// Base 2c: the permutation of c, doubled, and the same plus one. Base 2c + 1: that of 2c with c put into its middle
+/// and the values from c on moved up by one. So 0 1, 0 1 2, 0 2 1 3, 0 3 2 1 4, 0 2 4 1 3 5, ...
+/// Source: Faure 1992, "Good permutations for extreme discrepancy".
+template <std::uint32_t Base>
+    requires(Base >= 1)
+[[nodiscard]] constexpr std::array<std::uint32_t, Base> faure_permutation() noexcept {
+    std::array<std::uint32_t, Base> permutation{};
+    if constexpr (Base > 1) {
+        constexpr std::uint32_t half = Base / 2;
+        if constexpr (Base % 2 == 0) {
+            constexpr auto halved = faure_permutation<half>();
+            for (std::size_t i = 0; i < half; ++i) {
+                permutation[i] = 2 * halved[i];
+                permutation[i + half] = 2 * halved[i] + 1;
+            }
+        } else {
+            constexpr auto even = faure_permutation<Base - 1>();
+            permutation[half] = half;
+            for (std::size_t i = 0; i < Base - 1; ++i)
+                permutation[i < half ? i : i + 1] = even[i] + (even[i] >= half ? 1 : 0);
+        }
+    }
+    return permutation;
+}
+
+namespace detail {
+
+/// How many digits of an index are looked up at once: as many as keep a table below 3 KiB, but at least two.
+[[nodiscard]] constexpr std::uint32_t halton_block_size(std::uint32_t base) noexcept {
+    std::uint32_t size = base * base;
+    while (size * base <= 1500)
+        size *= base;
+    return size;
+}
+
+/// For each block of digits: the digits permuted, in reverse order.
+template <std::uint32_t Base>
+inline constexpr auto halton_reversed_digits = [] {
+    constexpr auto permutation = faure_permutation<Base>();
+    std::array<std::uint16_t, halton_block_size(Base)> reversed{};
+    // With one digit more in front, the others move back by one: the table grows from itself. Few steps for each entry, as
+    // compilers take about a microsecond for each; the first digit's part comes last, as it is what the others are made of.
+    for (std::size_t known = 1; known < reversed.size(); known *= Base) {
+        for (std::size_t i = 0; i < known; ++i)
+            reversed[i] = static_cast<std::uint16_t>(reversed[i] * Base);
+        for (std::size_t digit = Base, end = known * Base; digit-- > 1; end -= known) {
+            const std::uint32_t front = permutation[digit];
+            for (std::size_t i = 0, to = end - known; i < known; ++i, ++to)
+                reversed[to] = static_cast<std::uint16_t>(reversed[i] + front);
+        }
+    }
+    return reversed;
+}();
+} // namespace detail
+
+/// The radical inverse with Faure's permutation: the digits of the index in an integer base, permuted, behind the
+/// point in reverse order.
+///
+/// The nearest floating-point number while the index is below 2^42 (it is computed as one division of exact
+/// integers), then to a few units in the last place: digits worth less than 2^-52 are dropped. In base 2 cut off, not
+/// rounded. Never 1: what would round to 1 becomes the number before it.
+template <std::floating_point T, std::uint32_t Base>
+    requires(Base >= 2 && Base <= 53)
+[[nodiscard]] constexpr T faure_radical_inverse(std::uint64_t index) noexcept {
+    if constexpr (Base == 2) {
+        return uniform_from_bits<T>(reverse_bits(index));
+    } else {
+        constexpr auto& reversed_digits = detail::halton_reversed_digits<Base>;
+        constexpr std::uint64_t block = reversed_digits.size();
+        constexpr std::uint64_t last = std::uint64_t(std::numeric_limits<std::int64_t>::max()) / block;
+
+        std::uint64_t numerator = 0, denominator = 1;
+        for (; index != 0 && denominator <= last; index /= block, denominator *= block)
+            numerator = numerator * block + reversed_digits[index % block];
+        const double value = static_cast<double>(static_cast<std::int64_t>(numerator)) /
+                             static_cast<double>(static_cast<std::int64_t>(denominator));
+        constexpr T below_one = T(1) - std::numeric_limits<T>::epsilon() / 2;
+        return (std::min)(static_cast<T>(value), below_one);
+    }
+}
+
+/// Point i has as its coordinate in dimension d the permuted radical inverse of i in the d-th prime base.
+///
+/// Any b^m successive points, b the base of a dimension, have one in each interval [k / b^m, (k + 1) / b^m) of it, and
+/// as many successive points as a product of powers of several bases have one in each box of that grid. So every range
+/// of indices is stratified, by itself and together with the ranges beside it.
+///
+/// The seed chooses where each dimension starts: seed 0 at index 0, the plain sequence, any other seed at an index
+/// below 2^32, random and of that dimension's own [Wang and Hickernell 2000, "Randomized Halton sequences"]. By the
+/// Chinese remainder theorem this is, to any finite resolution, a range of the plain sequence further on: unlike a
+/// random shift modulo 1 it keeps all intervals and boxes, and it costs one addition. Over seeds each point is uniform
+/// in the cube to within 1e-7, so that averages over seeds are unbiased for practical purposes.
+///
+/// There are `dimensions` bases; from there on numbers are hashed, as in RandomSequence. Index: below 2^63.
+class HaltonSequence {
+public:
+    static constexpr bool stratified = true;
+    /// The bases are the primes from 2 to 53.
+    static constexpr std::uint32_t dimensions = 16;
+
+    explicit constexpr HaltonSequence(std::uint64_t seed = 0) noexcept : beyond_(seed) {
+        for (std::uint32_t d = 0; d < dimensions && seed != 0; ++d)
+            starts_[d] = static_cast<std::uint32_t>(hash_bits(seed, d) >> 32);
+    }
+
+    /// The coordinate of a point, in [0, 1).
+    template <std::floating_point T>
+    [[nodiscard]] constexpr T sample(std::uint64_t index, std::uint32_t dimension) const noexcept {
+        if (dimension >= dimensions)
+            return beyond_.sample<T>(index, dimension);
+
+        const std::uint64_t i = index + starts_[dimension];
+        switch (dimension) { // the bases as constants: a division by a constant is a multiplication
+        case 0:
+            return faure_radical_inverse<T, 2>(i);
+        case 1:
+            return faure_radical_inverse<T, 3>(i);
+        case 2:
+            return faure_radical_inverse<T, 5>(i);
+        case 3:
+            return faure_radical_inverse<T, 7>(i);
+        case 4:
+            return faure_radical_inverse<T, 11>(i);
+        case 5:
+            return faure_radical_inverse<T, 13>(i);
+        case 6:
+            return faure_radical_inverse<T, 17>(i);
+        case 7:
+            return faure_radical_inverse<T, 19>(i);
+        case 8:
+            return faure_radical_inverse<T, 23>(i);
+        case 9:
+            return faure_radical_inverse<T, 29>(i);
+        case 10:
+            return faure_radical_inverse<T, 31>(i);
+        case 11:
+            return faure_radical_inverse<T, 37>(i);
+        case 12:
+            return faure_radical_inverse<T, 41>(i);
+        case 13:
+            return faure_radical_inverse<T, 43>(i);
+        case 14:
+            return faure_radical_inverse<T, 47>(i);
+        default:
+            return faure_radical_inverse<T, 53>(i);
+        }
+    }
+
+private:
+    std::array<std::uint32_t, dimensions> starts_{};
+    RandomSequence beyond_;
+};
+
+static_assert(SampleSequence<HaltonSequence>);
+} // namespace nephroid

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a sequence of sample points is, and the stream of numbers that one photon draws from it.
+#pragma once
+
+#include "nephroid/vector/scalar.hpp"
+
+#include <concepts>
+#include <cstdint>
+#include <type_traits>
+
+namespace nephroid {
+
+template <class S, class T>
+concept SamplesAs = requires(const S sequence, std::uint64_t index, std::uint32_t dimension) {
+    { sequence.template sample<T>(index, dimension) } -> std::same_as<T>;
+};
+
+template <class S>
+concept SaysWhetherStratified = requires {
+    typename std::bool_constant<S::stratified>; // known to the compiler
+};
+
+/// An infinite sequence of points in the unit cube of any dimension, each coordinate to be had on its own.
+///
+/// `sample<T>(index, dimension)` is the coordinate of a point: in [0, 1), never 1, and a pure function of the
+/// sequence's seed and its two arguments, for every index and dimension, so that any range of points can be taken
+/// anywhere, in any order. `stratified` says whether the points of a range avoid each other: footprints of photons
+/// from a stratified sequence tile what random ones only cover on average.
+///
+/// ```cpp
+/// struct MySequence {
+///     static constexpr bool stratified = true;
+///     template <std::floating_point T>
+///     T sample(std::uint64_t index, std::uint32_t dimension) const { return my_sampler(index, dimension); }
+/// };
+/// ```
+///
+/// The compiler checks the call; `tests/sequence/sequence_laws.hpp` checks the meaning, for every model.
+template <class S>
+concept SampleSequence =
+    std::copy_constructible<S> && SamplesAs<S, float> && SamplesAs<S, double> && SaysWhetherStratified<S>;
+
+namespace detail {
+template <class S>
+consteval bool explain_sequence() {
+    static_assert(SamplesAs<S, float> && SamplesAs<S, double>,
+                  "nephroid: the sequence lacks sample<T>(index, dimension) const -> T for float and double "
+                  "(sequence/sequence.hpp)");
+    static_assert(SaysWhetherStratified<S>, "nephroid: the sequence lacks `static constexpr bool stratified` "
+                                            "(sequence/sequence.hpp)");
+    static_assert(std::copy_constructible<S>, "nephroid: the sequence cannot be copied");
+    return false;
+}
+
+template <class S>
+concept MustBeSequence = SampleSequence<S> || explain_sequence<S>();
+} // namespace detail
+
+/// The numbers that one photon draws, in the order in which it draws them: the coordinates of the point with its
+/// index, from `first_dimension` on. A pure function of the sequence's seed, the index, and how many were drawn.
+///
+/// Cheap to copy: it refers to the sequence, which has to outlive it.
+template <SampleSequence Sequence>
+class Sampler {
+public:
+    explicit constexpr Sampler(const Sequence& sequence, std::uint64_t index,
+                               std::uint32_t first_dimension = 0) noexcept
+        : sequence_(&sequence), index_(index), dimension_(first_dimension) {}
+    explicit Sampler(const Sequence&&, std::uint64_t, std::uint32_t = 0) = delete; // would refer to a temporary
+
+    /// The next number, in [0, 1). A scalar that is a class (a dual number) is made from a double.
+    template <Scalar T>
+    [[nodiscard]] constexpr T next() {
+        if constexpr (std::floating_point<T>)
+            return sequence_->template sample<T>(index_, dimension_++);
+        else
+            return T(sequence_->template sample<double>(index_, dimension_++));
+    }
+
+    /// Which point of the sequence this is: the photon's number.
+    [[nodiscard]] constexpr std::uint64_t index() const noexcept { return index_; }
+    /// The dimension from which the next number comes.
+    [[nodiscard]] constexpr std::uint32_t dimension() const noexcept { return dimension_; }
+
+private:
+    const Sequence* sequence_;
+    std::uint64_t index_;
+    std::uint32_t dimension_;
+};
+} // namespace nephroid

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+/// @file  Derivatives of the map from an area light to a surface, fitted to photons and their tangents.
+#pragma once
+
+#include "nephroid/smoothing/second_order/area_cells.hpp"
+#include "nephroid/smoothing/second_order/emission_frame.hpp"
+#include "nephroid/smoothing/second_order/roughness.hpp"
+#include "nephroid/vector/least_squares.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+namespace nephroid {
+
+/// Two tangents, or their change.
+struct TangentPair {
+    Space3 u, v;
+
+    friend TangentPair operator+(const TangentPair& a, const TangentPair& b) { return {a.u + b.u, a.v + b.v}; }
+    friend TangentPair operator-(const TangentPair& a, const TangentPair& b) { return {a.u - b.u, a.v - b.v}; }
+    friend TangentPair operator*(double s, const TangentPair& a) { return {s * a.u, s * a.v}; }
+    [[nodiscard]] friend double norm2(const TangentPair& a) { return inner(a.u, a.u) + inner(a.v, a.v); }
+};
+
+/// A photon's tangents as if they were turned about its ray as another's are.
+///
+/// @param turn  the other's `EmissionFrame::turn_of` the photon
+[[nodiscard]] inline TangentPair turned(const std::array<Space3, 2>& tangents, const PlaneMatrix& turn) {
+    return {turn.first.x * tangents[0] + turn.second.x * tangents[1],
+            turn.first.y * tangents[0] + turn.second.y * tangents[1]};
+}
+
+/// Fits J(σ, τ) = J + H σ + M τ + ½ T σ σ to tangents, where a step of σ goes along place and direction at once, as the
+/// tangents do, and a step of τ along one and back along the other: place is σ + τ and direction σ − τ.
+class AreaFit {
+public:
+    /// @param at        from the frame's photon
+    /// @param tangents  turned as those of the frame
+    /// @param sample    from the point whose derivatives are wanted
+    /// @param weight    > 0
+    void add(const AreaStep& at, const TangentPair& tangents, const AreaSample& sample, double weight) {
+        const std::array<double, 5> row{1, at.place.x, at.place.y, at.direction.x, at.direction.y};
+        for (std::size_t i = 0; i < 4; ++i)
+            samples_[i].add(row, sample[i], weight);
+        photons_.push_back({at, tangents, weight});
+    }
+
+    /// @param result           J, H, and T (0 where there are too few photons)
+    /// @param samples_by_step  how the samples change with σ
+    /// @param rough            `roughness` of the photons about there
+    /// @return  whether the photons determine J, H, M and where the samples are 0
+    [[nodiscard]] bool solve(PathDerivatives& result, std::array<Plane2, 4>& samples_by_step, double& rough) const {
+        LeastSquares<4, double> place_of_zero;
+        for (std::size_t i = 0; i < 4; ++i) {
+            std::array<double, 5> s;
+            if (!samples_[i].solve(5, s))
+                return false;
+            samples_by_step[i] = {s[1] + s[3], s[2] + s[4]};
+            place_of_zero.add({s[1], s[2], s[3], s[4]}, -s[0], 1);
+        }
+        std::array<double, 4> zero;
+        if (!place_of_zero.solve(4, zero))
+            return false;
+
+        constexpr std::size_t without_third = 9;
+        LeastSquares<unknowns, Space3> equations;
+        double heaviest = 0;
+        for (const Neighbour& photon : photons_)
+            heaviest = (std::max)(heaviest, photon.weight);
+        std::vector<std::pair<Row, Row>> rows_about;
+        std::vector<TangentResidual> about;
+        for (const Neighbour& photon : photons_) {
+            const Plane2 place = photon.at.place + Plane2{-zero[0], -zero[1]};
+            const Plane2 direction = photon.at.direction + Plane2{-zero[2], -zero[3]};
+            const Plane2 s = 0.5 * (place + direction), t = 0.5 * (place + -1.0 * direction);
+            const double xx = 0.5 * s.x * s.x, xy = s.x * s.y, yy = 0.5 * s.y * s.y;
+            const Row u{1, 0, s.x, s.y, 0, t.x, t.y, 0, 0, xx, xy, yy, 0},
+                v{0, 1, 0, s.x, s.y, 0, 0, t.x, t.y, 0, xx, xy, yy};
+            equations.add(u, photon.tangents.u, photon.weight);
+            equations.add(v, photon.tangents.v, photon.weight);
+            if (photon.weight > 0.4 * heaviest) { // all would take long to compare
+                rows_about.emplace_back(u, v);
+                about.push_back({{s.x, s.y, t.x, t.y}, {photon.tangents.u, photon.tangents.v}, {}});
+            }
+        }
+        std::array<Space3, unknowns> x{};
+        if ((photons_.size() < 12 || !equations.solve(unknowns, x)) &&
+            (photons_.size() < 8 || !equations.solve(without_third, x)))
+            return false;
+        result = {{x[0], x[1]}, {x[2], x[3], x[4]}, {x[9], x[10], x[11], x[12]}};
+        for (std::size_t i = 0; i < about.size(); ++i) {
+            about[i].unexplained = about[i].tangents;
+            for (std::size_t k = 0; k < unknowns; ++k) {
+                about[i].unexplained[0] += -rows_about[i].first[k] * x[k];
+                about[i].unexplained[1] += -rows_about[i].second[k] * x[k];
+            }
+        }
+        rough = roughness(about);
+        return true;
+    }
+
+private:
+    static constexpr std::size_t unknowns = 13;
+    using Row = std::array<double, unknowns>;
+
+    struct Neighbour {
+        AreaStep at;
+        TangentPair tangents;
+        double weight;
+    };
+
+    std::array<LeastSquares<5, double>, 4> samples_;
+    std::vector<Neighbour> photons_;
+};
+
+} // namespace nephroid

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+/// @file  Curved footprints: a splat bent as the map bends, in pieces that are ellipses each.
+///
+/// A photon about which the map F(u) = F + J u + ½ H u u is known lights the image of a disk, which at a fold is far from
+/// an ellipse. Seven pieces of half the disk's radius, at its middle and half way to its edge, are splatted where that map
+/// takes them, with the tangents that it has there. Their mean is where the one splat lies, shift included; on a straight
+/// map their variance and fourth moments are those of the one biweight, and they reach as far.
+#pragma once
+
+#include "nephroid/smoothing/second_order/path_derivatives.hpp"
+#include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/footprint/ellipse.hpp"
+#include "nephroid/transport/walk.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace nephroid {
+
+/// As SecondOrder, and photons about which the map bends are splatted in seven pieces: for sharp folds, and for scenes
+/// where rays cost far more than splats. A type for `SplatPolicies::order`; who does not use it pays nothing.
+struct CurvedFootprints : SecondOrder {
+    /// Photons whose footprint bends by less than this part of its minor radius (the norm of the second derivatives along
+    /// its semi-axes over that) stay one ellipse, >= 0
+    double least_bend = 0.5;
+};
+
+namespace detail {
+inline void check(const CurvedFootprints& order, const char* who) {
+    check(static_cast<const SecondOrder&>(order), who);
+    if (!(order.least_bend >= 0))
+        invalid_argument(std::string(who) + ": CurvedFootprints: least_bend is " + text_of(order.least_bend) +
+                         "; it must not be negative");
+}
+
+/// A part of the unit disk, of half its radius.
+struct DiskPiece {
+    Plane2 place;
+    double weight;
+};
+
+/// With these the second and fourth moments of a biweight are those of seven, and no other weights and radii of such a
+/// hexagon do that. The weights add up to 1 exactly, and are powers of two.
+inline constexpr std::array<DiskPiece, 7> disk_pieces = [] {
+    constexpr double h = 0.43301270189221932338; // √3/4
+    return std::array<DiskPiece, 7>{{{{0, 0}, 0.25},
+                                     {{0.5, 0}, 0.125},
+                                     {{0.25, h}, 0.125},
+                                     {{-0.25, h}, 0.125},
+                                     {{-0.5, 0}, 0.125},
+                                     {{-0.25, -h}, 0.125},
+                                     {{0.25, -h}, 0.125}}};
+}();
+} // namespace detail
+
+/// A footprint in pieces.
+template <Vector3 V, Flux F, std::size_t N>
+struct CurvedDeposit {
+    std::array<Deposit<V, F, N>, detail::disk_pieces.size()> all;
+    std::size_t count; ///< of them that are to be splatted: all, or 1, the whole
+
+    [[nodiscard]] std::span<const Deposit<V, F, N>> pieces() const { return {all.data(), count}; }
+};
+
+/// Takes a footprint apart where it bends.
+///
+/// @param deposit        with its final tangents and place
+/// @param second         second derivatives of the map by the halves of those tangents, along the surface
+/// @param second_moment  of the kernel
+template <Vector3 V, Flux F, std::size_t N>
+[[nodiscard]] CurvedDeposit<V, F, N> curved(const Deposit<V, F, N>& deposit, const std::array<Space3, 3>& second,
+                                            const CurvedFootprints& policy, double second_moment) {
+    using T = scalar_t<V>;
+    CurvedDeposit<V, F, N> result;
+    result.all[0] = deposit;
+    result.count = 1;
+    const double minor = double(radii(footprint(deposit.d_position[0], deposit.d_position[1], deposit.normal)).minor);
+    const double bend2 = inner(second[0], second[0]) + 2 * inner(second[1], second[1]) + inner(second[2], second[2]);
+    if (!(bend2 > square(policy.least_bend * minor)) || !std::isfinite(bend2))
+        return result;
+
+    result.count = detail::disk_pieces.size();
+    constexpr double of_places = 3.0 / 32; // their variance; with a quarter of its own, a biweight piece makes 1/8
+    const double size = std::sqrt(second_moment / (of_places + 0.25 * second_moment));
+    const auto world = [](const Space3& v) -> V { return make_vector<V>(T(v.x), T(v.y), T(v.z)); };
+    const Space3 mean = (0.5 * square(size) * of_places) * (second[0] + second[2]);
+    for (std::size_t i = 0; i < result.count; ++i) {
+        const Plane2 q = size * detail::disk_pieces[i].place;
+        const Space3 by_u = q.x * second[0] + q.y * second[1], by_v = q.x * second[1] + q.y * second[2];
+        Deposit<V, F, N>& piece = result.all[i];
+        piece = deposit;
+        piece.flux = static_cast<F>(deposit.flux * T(detail::disk_pieces[i].weight));
+        piece.position = deposit.position +
+                         (T(0.5 * q.x) * deposit.d_position[0] + T(0.5 * q.y) * deposit.d_position[1]) +
+                         world(0.5 * (q.x * by_u + q.y * by_v) - mean);
+        const T radius = T(0.5 * size);
+        piece.d_position[0] = radius * (deposit.d_position[0] + world(2 * by_u));
+        piece.d_position[1] = radius * (deposit.d_position[1] + world(2 * by_v));
+        for (std::size_t a = 2; a < N; ++a)
+            piece.d_position[a] = radius * deposit.d_position[a];
+    }
+    return result;
+}
+
+} // namespace nephroid

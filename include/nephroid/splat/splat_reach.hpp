@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+/// @file  Which leaves of an eye path map a splat reaches, and what has to be asked of their vertices one by one.
+#pragma once
+
+#include "nephroid/splat/splat.hpp"
+
+#include <array>
+#include <limits>
+
+namespace nephroid::detail {
+
+/// What a leaf and a splat have to do with each other.
+struct LeafMeeting {
+    bool meets;          ///< false only if no vertex lies in the ellipsoid's outline and faces the photon
+    bool checks_height;  ///< some vertices may lie beyond the normal distance
+    bool checks_normals; ///< some may face away
+};
+
+/// A splat's matrix by columns, its rows side by side: where on a leaf's box they lie is worked out for all at once.
+template <Vector3 V, Flux F>
+class SplatReach {
+public:
+    using T = scalar_t<V>;
+
+    explicit SplatReach(const Splat<V, F>& splat)
+        : x_(side_by_side(splat, [](const V& v) { return T(t::x(v)); })),
+          y_(side_by_side(splat, [](const V& v) { return T(t::y(v)); })),
+          z_(side_by_side(splat, [](const V& v) { return T(t::z(v)); })), centre_(splat.centre), normal_(splat.normal) {
+    }
+
+    [[nodiscard]] LeafMeeting operator()(const EyePathLeaf<T>& leaf) const {
+        const T dx = leaf.middle[0] - t::x(centre_), dy = leaf.middle[1] - t::y(centre_),
+                dz = leaf.middle[2] - t::z(centre_);
+        const T hx = leaf.half[0], hy = leaf.half[1], hz = leaf.half[2];
+        // Every row is linear in place, and 0 at the centre: on the box it lies in middle ± reach, rounding included, as
+        // the terms for a thin footprint are large and cancel.
+        std::array<T, 4> least, most; // of its absolute value
+#pragma GCC unroll 1                  // else GCC unrolls it, and then does not vectorise it
+        for (std::size_t row = 0; row < 4; ++row) {
+            const T a = x_[row] * dx, b = y_[row] * dy, c = z_[row] * dz;
+            const T middle = abs(a + b + c);
+            const T half = abs(x_[row]) * hx + abs(y_[row]) * hy + abs(z_[row]) * hz;
+            const T reach = half + rounding * (half + (abs(a) + abs(b) + abs(c)));
+            const T beyond = middle - reach;
+            least[row] = beyond > T(0) ? beyond : T(0);
+            most[row] = middle + reach;
+        }
+        const T cosine =
+            t::x(normal_) * leaf.normal[0] + t::y(normal_) * leaf.normal[1] + t::z(normal_) * leaf.normal[2];
+        // Normals are of unit length, so rounding is of that size; where all are the same they give what a vertex does.
+        const T spread = leaf.spread > T(0) ? leaf.spread * (T(1) + rounding) + rounding : T(0);
+        const bool beside = square(least[0]) + square(least[1]) > T(1);
+        return {!beside && cosine > -spread, !(most[2] < T(1)), !(cosine > spread)};
+    }
+
+private:
+    using t = vector_traits<V>;
+    /// Of a sum's terms: more than was ever seen, for compilers that fuse products and sums.
+    static constexpr T rounding = T(64) * std::numeric_limits<T>::epsilon();
+
+    template <class Coordinate>
+    [[nodiscard]] static std::array<T, 4> side_by_side(const Splat<V, F>& splat, const Coordinate& of) {
+        return {of(splat.row_a), of(splat.row_b), of(splat.row_n), T(0)}; // four make a vector
+    }
+
+    std::array<T, 4> x_, y_, z_;
+    V centre_, normal_;
+};
+
+} // namespace nephroid::detail

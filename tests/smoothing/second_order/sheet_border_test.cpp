@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#include "nephroid/smoothing/second_order/sheet_border.hpp"
+
+#include "smoothing/second_order/sheets.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace nephroid;
+using namespace nephroid::tests;
+
+// The outermost photons on the left are at column 30 of 0 to 62, on the right at column 31: borders are laid there.
+TEST_CASE("sheet border: where paths change there is a border for those on either side") {
+    const TwoSheets sheets;
+    const Field field = field_of(sheets);
+    const double s2 = straight_radius2(), width = side * step;
+    const double left = 30.5 / side, right = 31.5 / side, across = between(s2, 0.5 * width, width);
+    for (const double away : {0.005, 0.03, 0.08, 0.2}) {
+        CAPTURE(away);
+        for (const double u : {left - away, right + away}) {
+            const auto here = at(field, sheets, u, 0.5);
+            REQUIRE(here);
+            check_close(here->shape, {between(narrowed(s2, away * width), u * width, width), 0, across}, 1e-6 * s2);
+            CHECK(std::sqrt(inner(here->second[0], here->second[0])) <= 1e-12); // no difference was taken across
+        }
+    }
+    // Between the middles of two cells values are blended; across the border, where the map bends, they are not.
+    const auto bent_beyond = [](double u, double v) {
+        Landing landing = u < 0.5 ? affine(u, v) : quadratic(u, v);
+        landing.signature = u < 0.5 ? 1 : 2;
+        return landing;
+    };
+    const auto last = at(field_of(bent_beyond), bent_beyond, 0.499, 0.5);
+    REQUIRE(last);
+    check_close(last->shape, {narrowed(s2, 0), 0, across}, 1e-6 * s2);
+    for (const Space3& h : last->second)
+        CHECK(std::sqrt(inner(h, h)) <= 1e-12);
+}
+
+// A border that runs askew to the cells is laid through the outermost photon of a strip, half a cell to either side of a
+// cell's middle, and felt by photons a cell across from there at most, as the middles of four cells are blended. Its
+// direction is off by 45 degrees at most (where of a cell's surroundings a corner is cut off, or a side), so that it may
+// be laid 1.5 cells too far out; nearer ones than the least radius count as that, 1.1 steps. More than 2 steps are
+// rare: 1% of the photons looked at, of which there are some 300 to a lattice; the 2% allowed are not derived.
+TEST_CASE("sheet border: borders may run any way") {
+    const auto askew = [](double u, double v) {
+        Landing landing = affine(u, v);
+        landing.signature = u + 0.6 * v < 0.8 ? 1 : 2;
+        return landing;
+    };
+    const Plane2 n{1 / std::hypot(1, 0.6), 0.6 / std::hypot(1, 0.6)};
+    for (const auto& samples : {lattice(63, 63), halton(4000)}) {
+        const auto photons = photons_of(askew, samples);
+        const Field field = field_of(photons, {.stratified = true, .photons = double(samples.size())});
+        const double u0 = unit_of(double(samples.size()));
+        std::size_t checked = 0, far = 0;
+        for (std::size_t i = 0; i < photons.size(); i += 3) {
+            const auto& [u, v] = photons[i].sample.at;
+            const double away = std::abs(u + 0.6 * v - 0.8) / std::hypot(1, 0.6) / u0;
+            if (u < 0.2 || u > 0.8 || v < 0.2 || v > 0.8 || away > 25)
+                continue;
+            const auto here = field.at(photons[i].sample.at, photons[i].frame, photons[i].signature);
+            REQUIRE(here);
+            const double over = std::sqrt(inner(n, here->shape(n))) - away;
+            CHECK(over <= 1.5 * unit_per_cell * step);
+            far += over > 2 * step;
+            ++checked;
+        }
+        CHECK(checked > 100);
+        CHECK(double(far) < 0.02 * double(checked));
+    }
+}
+
+TEST_CASE("sheet border: where photons are lost there is a border") {
+    auto photons = photons_of(affine, lattice(std::size_t(side), std::size_t(side)));
+    for (MapPhoton& photon : photons)
+        if (photon.sample.at[0] > 0.501)
+            photon = lost(photon);
+    const Field field = field_of(photons, stratified());
+    const double s2 = straight_radius2(), width = side * step, away = 0.07;
+    const auto here = at(field, affine, 0.5 - away, 0.5);
+    REQUIRE(here);
+    CHECK(here->shape.xx ==
+          doctest::Approx(between(narrowed(s2, away * width), (0.5 - away) * width, width)).epsilon(1e-6));
+    CHECK(here->shape.yy == doctest::Approx(between(s2, 0.5 * width, width)).epsilon(1e-6));
+    CHECK(!at(field, affine, 0.8, 0.5));
+}
+
+// All nine photons of a cell lost: those beside it are a step away from its border, and the next cells three more.
+TEST_CASE("sheet border: a hole is a border for what is around it") {
+    auto photons = photons_of(affine, lattice(std::size_t(side), std::size_t(side)));
+    for (std::size_t y = 30; y < 33; ++y)
+        for (std::size_t x = 30; x < 33; ++x)
+            photons[y * 63 + x] = lost(photons[y * 63 + x]);
+    const Field field = field_of(photons, stratified());
+    const double s2 = straight_radius2(), width = side * step, cell = unit_per_cell / side;
+    const auto right = at(field, affine, 0.5 + cell, 0.5), above = at(field, affine, 0.5, 0.5 + 2 * cell);
+    REQUIRE((right && above));
+    CHECK(!at(field, affine, 0.5, 0.5));
+    const auto beside = [&](double distance, double cells) {
+        return between(narrowed(s2, distance), (0.5 + cells * cell) * width, width);
+    };
+    const double across = between(s2, 0.5 * width, width);
+    check_close(right->shape, {beside(step, 1), 0, across}, 1e-6 * s2);
+    check_close(above->shape, {across, 0, beside(4 * step, 2)}, 1e-6 * s2);
+}
+
+TEST_CASE("sheet border: photons lost here and there are no border") {
+    constexpr double wide = 240, count = wide * wide;
+    auto photons = photons_of(affine, lattice(std::size_t(wide), std::size_t(wide)));
+    for (std::size_t i = 5; i < photons.size(); i += 37) // apart from one another
+        photons[i] = lost(photons[i]);
+    FieldOptions options{.stratified = true, .photons = count};
+    options.bounds.largest_radius = 100; // else that were the radius
+    const Field field = field_of(photons, options);
+    for (const double u : {0.49, 0.5, 0.51})
+        for (const double v : {0.492, 0.5, 0.51}) {
+            const MapPhoton photon = photon_at(affine, {u, v}, count);
+            const auto here = field.at(photon.sample.at, photon.frame, 1);
+            REQUIRE(here); // its share is counted in windows of 144 photons, of which four are missing, or three
+            CHECK(here->shape.xx >= straight_radius2(count, 141.0 / 144, options.bounds));
+            CHECK(here->shape.xx <= straight_radius2(count, 139.0 / 144, options.bounds));
+            CHECK(std::abs(here->shape.xx - here->shape.yy) <= 1e-6 * here->shape.xx);
+        }
+}

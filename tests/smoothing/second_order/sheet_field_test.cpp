@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "nephroid/smoothing/second_order/sheet_field.hpp"
+
+#include "smoothing/second_order/sheets.hpp"
+#include "support/space.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace nephroid;
+using namespace nephroid::tests;
+
+// The radius is the largest there is, 32: borders are felt from 2.9 times that on, and half of the domain is 167 units.
+TEST_CASE("sheet field: a straight map has round footprints and no shift away from its borders") {
+    constexpr double wide = 189, photons = wide * wide;
+    const Field field = field_of(photons_of(affine, lattice(std::size_t(wide), std::size_t(wide))),
+                                 {.stratified = true, .photons = photons});
+    const double s2 = straight_radius2(photons);
+    REQUIRE(std::sqrt(s2) == doctest::Approx(32));
+    for (const double u : {0.35, 0.5, 0.61})
+        for (const double v : {0.37, 0.5, 0.65}) {
+            const MapPhoton photon = photon_at(affine, {u, v}, photons);
+            const auto here = field.at(photon.sample.at, photon.frame, photon.signature);
+            REQUIRE(here);
+            check_close(here->shape, Symmetric2::isotropic(s2), 1e-9 * s2);
+            CHECK(std::abs(here->divergence.x) + std::abs(here->divergence.y) <= 1e-9 * s2);
+            for (const Space3& h : here->second) // a unit step, 1/335 of the domain, changes J by nothing
+                CHECK(std::sqrt(inner(h, h)) <= 1e-12);
+        }
+}
+
+// Between the middles of cells shapes are bilinear, beside borders smooth: a difference over a fiftieth of a lattice step
+// is off by its square.
+TEST_CASE("sheet field: the divergence is that of the shapes around") {
+    const Field field = field_of(curved);
+    const double u0 = unit_of(all), h = 0.01 / side;
+    std::size_t varying = 0;
+    for (const double u : {0.06, 0.31, 0.55, 0.9})
+        for (const double v : {0.11, 0.48, 0.82}) {
+            const auto here = at(field, curved, u, v);
+            const auto right = at(field, curved, u + h, v), left = at(field, curved, u - h, v),
+                       up = at(field, curved, u, v + h), down = at(field, curved, u, v - h);
+            REQUIRE((here && right && left && up && down));
+            const double per_unit = u0 / (2 * h);
+            const Plane2 expected{
+                per_unit * (right->shape.xx - left->shape.xx) + per_unit * (up->shape.xy - down->shape.xy),
+                per_unit * (right->shape.xy - left->shape.xy) + per_unit * (up->shape.yy - down->shape.yy)};
+            CAPTURE(u);
+            CAPTURE(v);
+            CHECK(here->divergence.x == doctest::Approx(expected.x).epsilon(1e-5));
+            CHECK(here->divergence.y == doctest::Approx(expected.y).epsilon(1e-5));
+            varying += std::abs(expected.x) > 0.1;
+        }
+    CHECK(varying > 4);
+}
+
+// A light may choose any orthogonal pair of tangents for each photon: what comes out for the surface is the same. The
+// fit and the blend are made in the axes of one photon of each cell, so only rounding differs.
+TEST_CASE("sheet field: footprints do not depend on how the light turns its tangents") {
+    const auto samples = halton(2000);
+    const auto plain = photons_of(curved, samples);
+    std::vector<MapPhoton> turned;
+    Draws draw(5);
+    for (const auto& sample : samples)
+        turned.push_back(photon_at(curved, sample, 2000, 1, draw.in(0, 6.3)));
+    const FieldOptions options{.stratified = true, .photons = 2000};
+    const Field field = field_of(plain, options), other = field_of(turned, options);
+    std::size_t found = 0;
+    for (std::size_t i = 0; i < samples.size(); i += 7) {
+        const auto a = field.at(samples[i], plain[i].frame, 1), b = other.at(samples[i], turned[i].frame, 1);
+        REQUIRE(a.has_value() == b.has_value());
+        if (!a)
+            continue;
+        ++found;
+        const auto on_floor = [](const MapPhoton& photon, const FieldSample& sample) {
+            const auto j = unit_tangents(*photon.deposit);
+            return congruent({{j[0].x, j[0].y}, {j[1].x, j[1].y}}, sample.shape);
+        };
+        const Symmetric2 p = on_floor(plain[i], *a), q = on_floor(turned[i], *b);
+        check_close(p, q, 1e-8 * p.trace());
+        const auto bend = [](const FieldSample& s) {
+            return s.shape.xx * s.second[0] + (2 * s.shape.xy * s.second[1] + s.shape.yy * s.second[2]);
+        };
+        CHECK(distance(bend(*a), bend(*b)) <= 1e-8 * std::sqrt(inner(bend(*a), bend(*a))) + 1e-14);
+        const auto drift = [](const MapPhoton& photon, const FieldSample& s) {
+            const auto j = unit_tangents(*photon.deposit);
+            return s.divergence.x * j[0] + s.divergence.y * j[1];
+        };
+        CHECK(distance(drift(plain[i], *a), drift(turned[i], *b)) <= 1e-8 * std::sqrt(p.trace()));
+    }
+    CHECK(found > 250);
+}
+
+TEST_CASE("sheet field: photons that are all at one place or all lost give nothing") {
+    const auto one_place = photons_of(affine, Samples(100, {0.5, 0.5}));
+    const Field field = field_of(one_place, {.stratified = true, .photons = 100});
+    CHECK(!field.at({0.5, 0.5}, one_place[0].frame, 1));
+    CHECK(!field.at({0.1, 0.9}, one_place[0].frame, 1));
+    auto none_landed = photons_of(affine, halton(100));
+    for (MapPhoton& photon : none_landed)
+        photon = lost(photon);
+    const Field none = field_of(none_landed, {.stratified = true, .photons = 100});
+    for (const MapPhoton& photon : none_landed)
+        CHECK(!none.at(photon.sample.at, photon.frame, photon.signature));
+}
+
+TEST_CASE("sheet field: any number of threads makes the same field bit for bit") {
+    const auto samples = halton(20000);
+    const auto photons = photons_of(TwoSheets{0.3}, samples);
+    const auto curved_photons = photons_of(curved, samples);
+    for (const auto* all_photons : {&photons, &curved_photons}) {
+        const FieldOptions options{.stratified = true, .photons = 20000};
+        const Field serial = field_of(*all_photons, options);
+        for (const unsigned threads : {1u, 2u, 7u}) {
+            ThreadExecutor executor(threads);
+            const Field again(*all_photons, options, executor);
+            CAPTURE(threads);
+            for (std::size_t i = 0; i < all_photons->size(); i += 11) {
+                const MapPhoton& photon = (*all_photons)[i];
+                const auto a = serial.at(photon.sample.at, photon.frame, photon.signature),
+                           b = again.at(photon.sample.at, photon.frame, photon.signature);
+                REQUIRE(a.has_value() == b.has_value());
+                if (!a)
+                    continue;
+                REQUIRE((a->shape.xx == b->shape.xx && a->shape.xy == b->shape.xy && a->shape.yy == b->shape.yy));
+                REQUIRE((a->divergence.x == b->divergence.x && a->divergence.y == b->divergence.y));
+                for (std::size_t k = 0; k < 3; ++k)
+                    REQUIRE(distance(a->second[k], b->second[k]) == 0);
+            }
+        }
+    }
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "nephroid/smoothing/second_order/varying_shape.hpp"
+
+#include "support/space.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace nephroid;
+using tests::Draws;
+
+namespace {
+
+[[nodiscard]] Symmetric2 any_tensor(Draws& draw, double size) {
+    return {draw.in(-size, size), draw.in(-size, size), draw.in(-size, size)};
+}
+
+} // namespace
+
+// S + x S', with a bound of d + x d': differences of what comes out for x = ± h, by h² and rounding over h.
+TEST_CASE("varying shape: what a bound does to the shape it does to its derivatives") {
+    Draws draw(1);
+    constexpr double h = 1e-4;
+    for (int i = 0; i < 200; ++i) {
+        const Symmetric2 s{draw.in(40, 90), draw.in(-20, 20), draw.in(40, 90)};
+        const Symmetric2 along_u = any_tensor(draw, 5), along_v = any_tensor(draw, 5);
+        const double angle = draw.in(0, 6.3), most = draw.in(3, 12);
+        const Plane2 n{std::cos(angle), std::sin(angle)}, slope{draw.in(-1, 1), draw.in(-1, 1)};
+        VaryingShape shape{s, along_u, along_v};
+        shape.bound_along(n, most, slope);
+        const auto at = [&](const Symmetric2& along, double d_most, double x) {
+            VaryingShape moved{s + x * along, {}, {}};
+            moved.bound_along(n, most + x * d_most, {});
+            return moved.value;
+        };
+        const auto check = [&](const Symmetric2& derivative, const Symmetric2& along, double d_most) {
+            const Symmetric2 difference = (0.5 / h) * (at(along, d_most, h) + -1.0 * at(along, d_most, -h));
+            CHECK(std::abs(derivative.xx - difference.xx) < 1e-6);
+            CHECK(std::abs(derivative.xy - difference.xy) < 1e-6);
+            CHECK(std::abs(derivative.yy - difference.yy) < 1e-6);
+        };
+        check(shape.along_u, along_u, slope.x);
+        check(shape.along_v, along_v, slope.y);
+        const double radius2 = inner(n, s(n)), bounded2 = inner(n, shape.value(n));
+        CHECK(bounded2 < most * most);
+        CHECK(bounded2 == doctest::Approx(1 / std::hypot(1 / radius2, 1 / (most * most))));
+        // Across, in the direction that is conjugate to n, nothing changes.
+        const Plane2 touch = s(n), across{-touch.y, touch.x}, before = s(across), after = shape.value(across);
+        CHECK(std::abs(before.x - after.x) + std::abs(before.y - after.y) <= 1e-9 * s.trace() * s.trace());
+    }
+}
+
+TEST_CASE("varying shape: a bound far out changes nothing") {
+    VaryingShape shape{{9, 1, 4}, {1, 2, 3}, {4, 5, 6}};
+    shape.bound_along({1, 0}, 8.5, {1, 1});
+    CHECK((shape.value.xx == 9 && shape.value.xy == 1 && shape.value.yy == 4));
+    CHECK((shape.along_u.xx == 1 && shape.along_v.yy == 6));
+}

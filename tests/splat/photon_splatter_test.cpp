@@ -1,0 +1,418 @@
+// SPDX-License-Identifier: MIT
+#include "nephroid/splat/photon_splatter.hpp"
+
+#include "support/brute_force.hpp"
+#include "support/is_sanitized.hpp"
+#include "support/space.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+
+using namespace nephroid;
+using tests::Draws;
+using tests::is_sanitized;
+using tests::Received;
+using tests::Vertex;
+
+namespace {
+
+template <class T>
+using Vec = glm::vec<3, T>;
+
+template <class T>
+constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
+
+constexpr double spacing = 1.0 / 32;
+
+template <class V>
+EyePathMap<V> map_of(const std::vector<Vertex<V>>& vertices) {
+    return EyePathMap<V>(vertices, &Vertex<V>::position, &Vertex<V>::normal);
+}
+
+/// A floor, close below it its back, and a wall beside it: vertices that face up, down, and across.
+template <class T>
+std::vector<Vertex<Vec<T>>> room() {
+    std::vector<Vertex<Vec<T>>> vertices;
+    tests::add_lattice<T>(vertices, 32, 32, spacing, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    tests::add_lattice<T>(vertices, 32, 32, spacing, {0, 0, -0.001}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1});
+    tests::add_lattice<T>(vertices, 32, 32, spacing, {1.25, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0});
+    return vertices;
+}
+
+/// Photons on the floor, on its back, on the wall, and on planes in between that are tilted at random.
+template <class T, class F = T>
+std::vector<Deposit<Vec<T>, F>> photons(int count, F flux = F(1)) {
+    Draws draw(71);
+    std::vector<Deposit<Vec<T>, F>> deposits;
+    for (int i = 0; i < count; ++i) {
+        Vec<T> n{0, 0, 1}, p{T(draw.in(0, 1)), T(draw.in(0, 1)), 0};
+        if (i % 4 == 1)
+            n = {0, 0, -1}, p.z = T(-0.001);
+        if (i % 4 == 2)
+            n = {-1, 0, 0}, p = {T(1.25), T(draw.in(0, 1)), T(draw.in(0, 1))};
+        if (i % 4 == 3)
+            n = tests::narrow<Vec<T>>(draw.direction()), p.z = T(draw.in(-0.05, 0.05));
+        const auto frame = frame_about(n);
+        const double size = std::pow(10.0, draw.in(-3, 0));
+        const auto in_plane = [&] {
+            return Vec<T>(T(draw.in(-size, size)) * frame.u + T(draw.in(-size, size)) * frame.v);
+        };
+        deposits.push_back({p, n, -n, flux * T(draw.in(0.5, 1)), {in_plane(), in_plane()}});
+    }
+    return deposits;
+}
+
+/// Splats in chunks of this many.
+template <class Splatter, class V, class F>
+Statistics splat(Splatter& splatter, const std::vector<Deposit<V, F>>& deposits, std::size_t per_chunk = 64) {
+    Statistics account;
+    std::vector<typename Splatter::Chunk> chunks((deposits.size() + per_chunk - 1) / per_chunk);
+    for (std::size_t i = 0; i < deposits.size(); ++i) {
+        ++account.emitted.photons;
+        account.emitted.flux += flux_traits<F>::power(deposits[i].flux);
+        chunks[i / per_chunk].add(splatter, deposits[i], account);
+    }
+    SerialExecutor executor;
+    splatter.add(std::span<const typename Splatter::Chunk>(chunks), executor);
+    return account;
+}
+
+template <class Splatter>
+auto sums(const Splatter& splatter, std::size_t count) {
+    using F = typename Splatter::flux_type;
+    std::vector<F> image(count, flux_traits<F>::zero());
+    std::vector<int> times(count);
+    splatter.for_each([&](std::size_t i, const F& sum) {
+        image.at(i) = sum;
+        ++times[i];
+    });
+    CHECK(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; }));
+    return image;
+}
+
+/// The same by brute force, with the spacing that the map reports where each photon landed.
+template <class T, class Kernel, class F>
+std::vector<Received> expected(const std::vector<Vertex<Vec<T>>>& vertices, const EyePathMap<Vec<T>>& map,
+                               const std::vector<Deposit<Vec<T>, F>>& deposits, const Kernel& kernel, double width,
+                               double normal_distance = 0.25) {
+    std::vector<Received> image(vertices.size());
+    for (const auto& deposit : deposits) {
+        const double p = double(map.spacing_at(deposit.position));
+        tests::receive(image, vertices, deposit, flux_traits<F>::power(deposit.flux), kernel, width * p, p, epsilon<T>,
+                       normal_distance);
+    }
+    return image;
+}
+
+template <class F>
+void check_image(const std::vector<F>& image, const std::vector<Received>& expected, double scale = 1) {
+    double lit = 0;
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        CAPTURE(i);
+        CAPTURE(double(image[i]));
+        CAPTURE(expected[i].value * scale);
+        REQUIRE(std::abs(double(image[i]) - expected[i].value * scale) <= expected[i].tolerance * scale);
+        lit += expected[i].value > 100 * expected[i].tolerance ? 1 : 0;
+    }
+    CHECK(lit > 0.5 * double(image.size())); // else the tolerance would prove nothing
+}
+
+} // namespace
+
+TEST_CASE_TEMPLATE("photon splatter: adds up what brute force over all vertices adds up", T, float, double) {
+    const auto vertices = room<T>();
+    const auto map = map_of(vertices);
+    const auto deposits = photons<T>(400);
+    const double pi = std::numbers::pi;
+    const auto biweight = [&](double r2) { return 3 / pi * (1 - r2) * (1 - r2); };
+    const auto epanechnikov = [&](double r2) { return 2 / pi * (1 - r2); };
+    const auto uniform = [&](double) { return 1 / pi; };
+    SUBCASE("with the default policies") {
+        PhotonSplatter<Vec<T>, T> splatter(map);
+        splat(splatter, deposits);
+        check_image(sums(splatter, vertices.size()), expected(vertices, map, deposits, biweight, std::sqrt(2.0 / 3)));
+    }
+    SUBCASE("with another kernel") {
+        const SplatPolicies<EpanechnikovKernel> policies{};
+        PhotonSplatter<Vec<T>, T, SplatPolicies<EpanechnikovKernel>> splatter(map, policies);
+        splat(splatter, deposits);
+        check_image(sums(splatter, vertices.size()), expected(vertices, map, deposits, epanechnikov, std::sqrt(0.5)));
+    }
+    SUBCASE("with a kernel that jumps at the edge") {
+        PhotonSplatter<Vec<T>, T, SplatPolicies<UniformKernel>> splatter(map);
+        splat(splatter, deposits);
+        check_image(sums(splatter, vertices.size()), expected(vertices, map, deposits, uniform, std::sqrt(1.0 / 3)));
+    }
+    SUBCASE("with a wider filter and a thicker slab") {
+        const SplatPolicies<> policies{.filter = {2}, .normal_distance = 1.5};
+        PhotonSplatter<Vec<T>, T> splatter(map, policies);
+        splat(splatter, deposits);
+        check_image(sums(splatter, vertices.size()),
+                    expected(vertices, map, deposits, biweight, 2 * std::sqrt(2.0 / 3), 1.5));
+    }
+}
+
+// Floor and back are a thousandth apart, thinner than any slab: what counts is which way they face.
+TEST_CASE_TEMPLATE("photon splatter: a vertex that faces away receives nothing", T, float, double) {
+    const auto vertices = room<T>();
+    const auto map = map_of(vertices);
+    const Vec<T> up{0, 0, 1}, a{T(0.3), 0, 0}, b{0, T(0.3), 0};
+    for (const T side : {T(1), T(-1)}) {
+        PhotonSplatter<Vec<T>, T> splatter(map);
+        splat(splatter, std::vector<Deposit<Vec<T>, T>>{{{T(0.5), T(0.5), 0}, side * up, -side * up, T(1), {a, b}}});
+        const auto image = sums(splatter, vertices.size());
+        double floor = 0, back = 0, wall = 0;
+        for (std::size_t i = 0; i < 1024; ++i)
+            floor += double(image[i]), back += double(image[1024 + i]), wall += double(image[2048 + i]);
+        CHECK((side > 0 ? floor : back) * spacing * spacing == doctest::Approx(1).epsilon(0.01));
+        CHECK((side > 0 ? back : floor) == 0);
+        CHECK(wall == 0);
+    }
+}
+
+// One leaf whose vertices face every way: each is asked on its own.
+TEST_CASE_TEMPLATE("photon splatter: in a leaf of mixed normals every vertex is asked", T, float, double) {
+    Draws draw(72);
+    std::vector<Vertex<Vec<T>>> vertices;
+    for (int i = 0; i < 61; ++i) // not a multiple of the lanes
+        vertices.push_back({{T(draw.in(0, 1)), T(draw.in(0, 1)), 0}, tests::narrow<Vec<T>>(draw.direction())});
+    const auto map = map_of(vertices);
+    REQUIRE(map.tree().leaves().size() == 1);
+    for (int i = 0; i < 20; ++i) {
+        const auto n = tests::narrow<Vec<T>>(draw.direction());
+        const auto [u, v] = frame_about(n);
+        PhotonSplatter<Vec<T>, T> splatter(map, SplatPolicies<>{.normal_distance = 2}); // so that all are near enough
+        splat(splatter, std::vector<Deposit<Vec<T>, T>>{{{T(0.5), T(0.5), 0}, n, -n, T(1), {T(4) * u, T(4) * v}}});
+        const auto image = sums(splatter, vertices.size());
+        for (std::size_t k = 0; k < vertices.size(); ++k)
+            CHECK((image[k] > T(0)) == (dot(vertices[k].normal, n) > T(0)));
+    }
+}
+
+TEST_CASE_TEMPLATE("photon splatter: a vertex off the tangent plane receives nothing", T, float, double) {
+    std::vector<Vertex<Vec<T>>> vertices;
+    for (int layer = 0; layer < 20; ++layer) // stairs of a hundredth
+        tests::add_lattice<T>(vertices, 8, 8, 0.125, {0, 0, 0.01 * layer}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    const auto map = map_of(vertices);
+    const Vec<T> up{0, 0, 1};
+    // A fifth of the minor radius, 0.5; the vertices are less than a tenth apart.
+    REQUIRE(double(map.spacing_at({T(0.4375), T(0.4375), 0})) < 0.1);
+    const SplatPolicies<BiweightKernel, NoPixelFilter> policies{.normal_distance = 0.21};
+    PhotonSplatter<Vec<T>, T, SplatPolicies<BiweightKernel, NoPixelFilter>> splatter(map, policies);
+    splat(splatter,
+          std::vector<Deposit<Vec<T>, T>>{{{T(0.4375), T(0.4375), 0}, up, -up, T(1), {Vec<T>{2, 0, 0}, {0, 1, 0}}}});
+    const auto image = sums(splatter, vertices.size());
+    for (std::size_t layer = 0; layer < 20; ++layer)
+        CHECK((image[64 * layer + 27] > T(0)) == (0.01 * double(layer) < 0.105)); // the step nearest to the middle
+}
+
+namespace {
+
+/// A glossy BRDF with a texture: depends on the vertex and on where the light comes from.
+struct Gloss {
+    float operator()(std::size_t vertex, const glm::vec3& direction) const {
+        return (1 + float(vertex % 7)) * (direction.z * direction.z);
+    }
+};
+struct Tint {
+    glm::vec3 operator()(std::size_t vertex, const glm::vec3&) const { return {1, float(vertex % 2), 0}; }
+};
+
+} // namespace
+
+TEST_CASE("photon splatter: a response weighs each photon by vertex and direction") {
+    const auto vertices = room<float>();
+    const auto map = map_of(vertices);
+    auto deposits = photons<float>(200);
+    Draws draw(73);
+    PhotonSplatter<glm::vec3, float, SplatPolicies<>, Gloss> splatter(map, {}, Gloss{});
+    std::vector<Received> expected(vertices.size());
+    for (auto& deposit : deposits) {
+        deposit.direction = tests::narrow<glm::vec3>(draw.direction());
+        std::vector<Received> one(vertices.size());
+        const double p = double(map.spacing_at(deposit.position)), pi = std::numbers::pi;
+        tests::receive(
+            one, vertices, deposit, double(deposit.flux), [&](double r2) { return 3 / pi * (1 - r2) * (1 - r2); },
+            std::sqrt(2.0 / 3) * p, p, epsilon<float>);
+        for (std::size_t i = 0; i < one.size(); ++i) {
+            const double response = double(Gloss{}(i, deposit.direction));
+            expected[i].value += response * one[i].value;
+            expected[i].tolerance += response * one[i].tolerance;
+        }
+    }
+    splat(splatter, deposits);
+    check_image(sums(splatter, vertices.size()), expected);
+}
+
+// Three bands do what three fluxes do: each is the same product and sum, bit for bit unless a compiler fuses some of them.
+// 100 photons round 100 times then.
+TEST_CASE("photon splatter: a colour is three numbers") {
+    const auto vertices = room<float>();
+    const auto map = map_of(vertices);
+    const auto grey = photons<float>(100);
+    std::vector<Deposit<glm::vec3, glm::vec3>> coloured;
+    for (const auto& d : grey)
+        coloured.push_back({d.position, d.normal, d.direction, {d.flux, 2 * d.flux, 0}, d.d_position});
+    PhotonSplatter<glm::vec3, float> one(map);
+    PhotonSplatter<glm::vec3, glm::vec3> three(map);
+    PhotonSplatter<glm::vec3, glm::vec3, SplatPolicies<>, Tint> tinted(map);
+    splat(one, grey);
+    const Statistics account = splat(three, coloured);
+    splat(tinted, coloured);
+    const auto grey_image = sums(one, vertices.size());
+    const auto image = sums(three, vertices.size()), tinted_image = sums(tinted, vertices.size());
+#if defined(__FMA__)
+    const double roundings = 100 * epsilon<float>;
+#else
+    const double roundings = 0;
+#endif
+    const auto is_close = [&](const glm::vec3& a, const glm::vec3& b) {
+        return double(length(a - b)) <= roundings * double(length(b));
+    };
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        REQUIRE(is_close(image[i], {grey_image[i], 2 * grey_image[i], 0}));
+        REQUIRE(is_close(tinted_image[i], {grey_image[i], i % 2 == 1 ? 2 * grey_image[i] : 0, 0}));
+    }
+    double power = 0;
+    for (const auto& d : coloured)
+        power += flux_traits<glm::vec3>::power(d.flux);
+    CHECK(account.accounted_flux() == doctest::Approx(power).epsilon(1e-12));
+}
+
+// The order of summation is that of the photons, however they are cut into chunks and calls.
+TEST_CASE_TEMPLATE("photon splatter: the sums do not depend on chunks nor on calls", T, float, double) {
+    const auto vertices = room<T>();
+    const auto map = map_of(vertices);
+    const auto deposits = photons<T>(300);
+    PhotonSplatter<Vec<T>, T> reference(map);
+    splat(reference, deposits, 1000);
+    const auto image = sums(reference, vertices.size());
+    for (const std::size_t per_chunk : {1u, 7u, 64u}) {
+        PhotonSplatter<Vec<T>, T> splatter(map);
+        splat(splatter, deposits, per_chunk);
+        CHECK(sums(splatter, vertices.size()) == image);
+        // Cleared, it starts anew; in two calls.
+        splatter.clear();
+        CHECK(sums(splatter, vertices.size()) == std::vector<T>(vertices.size()));
+        splat(splatter, std::vector(deposits.begin(), deposits.begin() + 111), per_chunk);
+        splat(splatter, std::vector(deposits.begin() + 111, deposits.end()), per_chunk);
+        CHECK(sums(splatter, vertices.size()) == image);
+    }
+}
+
+TEST_CASE("photon splatter: several threads give the same sums bit for bit") {
+    const auto vertices = room<float>();
+    const auto map = map_of(vertices);
+    const auto deposits = photons<float>(300);
+    std::vector<std::vector<float>> images;
+    for (const unsigned threads : {1u, 2u, 7u}) {
+        ThreadExecutor executor(threads);
+        PhotonSplatter<glm::vec3, float> splatter(map);
+        using Chunk = PhotonSplatter<glm::vec3, float>::Chunk;
+        std::vector<Chunk> chunks(6);
+        std::vector<Statistics> accounts(6);
+        executor(6, [&](std::size_t c) {
+            for (std::size_t i = 50 * c; i < 50 * (c + 1); ++i)
+                chunks[c].add(splatter, deposits[i], accounts[c]);
+        });
+        splatter.add(std::span<const Chunk>(chunks), executor);
+        images.push_back(sums(splatter, vertices.size()));
+    }
+    CHECK(images[1] == images[0]);
+    CHECK(images[2] == images[0]);
+}
+
+// More than 32,768 leaves, which then are in groups of more than four. Against the sums of one chunk after another.
+TEST_CASE("photon splatter: a map of many leaves is summed by several threads bit for bit" * doctest::skip(is_sanitized)) {
+    using V = glm::vec3;
+    constexpr std::size_t side = 1500;
+    std::vector<Vertex<V>> vertices;
+    tests::add_lattice<float>(vertices, side, side, 1.0 / side, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    const auto map = map_of(vertices);
+    CHECK(map.tree().leaves().size() > 32768);
+    Draws draw(72);
+    std::vector<Deposit<V, float>> deposits;
+    for (int i = 0; i < 4000; ++i)
+        deposits.push_back({{float(draw.in(0, 1)), float(draw.in(0, 1)), 0},
+                            {0, 0, 1},
+                            {0, 0, -1},
+                            1,
+                            {V(draw.in(0.005, 0.03), 0, 0), V(draw.in(-0.01, 0.01), draw.in(0.005, 0.03), 0)}});
+    PhotonSplatter<V, float> reference(map);
+    splat(reference, deposits, deposits.size());
+    const auto image = sums(reference, vertices.size());
+    CHECK(std::count(image.begin(), image.end(), 0.0f) < std::ptrdiff_t(image.size() / 2));
+    using Chunk = PhotonSplatter<V, float>::Chunk;
+    ThreadExecutor threads(3);
+    for (const std::size_t count : {5u, 17u, 64u}) {
+        PhotonSplatter<V, float> splatter(map);
+        std::vector<Chunk> chunks(count);
+        Statistics account;
+        for (std::size_t i = 0; i < deposits.size(); ++i)
+            chunks[i * count / deposits.size()].add(splatter, deposits[i], account);
+        splatter.add(std::span<const Chunk>(chunks), threads);
+        CAPTURE(count);
+        CHECK(sums(splatter, vertices.size()) == image);
+    }
+}
+
+TEST_CASE_TEMPLATE("photon splatter: books what became of each photon", T, float, double) {
+    const auto vertices = room<T>();
+    const auto map = map_of(vertices);
+    const Vec<T> up{0, 0, 1}, centre{T(0.5), T(0.5), 0}, a{T(0.1), 0, 0}, b{0, T(0.1), 0}, zero{0, 0, 0};
+    const std::vector<Deposit<Vec<T>, T>> deposits{
+        {centre, up, -up, T(1), {a, b}},                // splatted
+        {{T(50), T(50), T(50)}, up, -up, T(2), {a, b}}, // unseen
+        {centre, up, -up, T(4), {a, zero}},             // collapsed, without a filter
+        {centre, up, -up, T(8), {T(1e4) * a, b}},       // excessive
+        {centre, up, -up, T(16), {T(NAN) * a, b}},      // invalid
+    };
+    using Policies = SplatPolicies<BiweightKernel, NoPixelFilter, DiscardCollapsed, DiscardExcess>;
+    PhotonSplatter<Vec<T>, T, Policies> splatter(map);
+    const Statistics account = splat(splatter, deposits);
+    CHECK(account[Fate::splatted].flux == 1);
+    CHECK(account[Fate::unseen].flux == 2);
+    CHECK(account[Fate::collapsed].flux == 4);
+    CHECK(account[Fate::excessive].flux == 8);
+    CHECK(account[Fate::invalid].flux == 16);
+    CHECK(account.accounted_flux() == 31);
+    CHECK(account.caustic_photons() == 4);
+    CHECK(account.bounded_footprints == 0);
+
+    // With the default policies nothing is discarded that has a position, and what is changed is counted.
+    PhotonSplatter<Vec<T>, T> keeps(map);
+    const Statistics kept = splat(keeps, deposits);
+    CHECK(kept[Fate::splatted].flux == 13);
+    CHECK(kept[Fate::collapsed].photons == 0);
+    CHECK(kept[Fate::excessive].photons == 0);
+    CHECK(kept.bounded_footprints == 1);
+    for (const T sum : sums(keeps, vertices.size()))
+        CHECK(isfinite(sum));
+}
+
+TEST_CASE_TEMPLATE("photon splatter: on an empty map every photon is unseen", T, float, double) {
+    const std::vector<Vertex<Vec<T>>> nothing;
+    const auto map = map_of(nothing);
+    PhotonSplatter<Vec<T>, T> splatter(map);
+    const auto deposits = photons<T>(50);
+    const Statistics account = splat(splatter, deposits);
+    CHECK(account[Fate::unseen].photons + account[Fate::collapsed].photons == 50);
+    CHECK(account[Fate::unseen].photons >= 49);
+    CHECK(sums(splatter, 0).empty());
+}
+
+// Distances across a needle overflow at a far vertex, and their difference would be no number.
+TEST_CASE_TEMPLATE("photon splatter: a needle thinner than any makes no vertex a NaN", T, float, double) {
+    std::vector<Vertex<Vec<T>>> vertices;
+    tests::add_lattice<T>(vertices, 8, 8, 1e4, {-35000, -35000, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+    const auto map = map_of(vertices);
+    PhotonSplatter<Vec<T>, T, SplatPolicies<BiweightKernel, NoPixelFilter>> splatter(map);
+    const Vec<T> up{0, 0, 1}, diagonal{1, 1, 0}, across{-1, 1, 0};
+    for (const T width : {T(1e-30), T(1e-34), T(1e-36), (std::numeric_limits<T>::min)() * 8})
+        splat(splatter,
+              std::vector<Deposit<Vec<T>, T>>{{{1, 2, 0}, up, -up, T(1), {diagonal, width * across}},
+                                              {{1, 2, 0}, up, -up, T(1), {width * diagonal, width * across}}});
+    for (const T sum : sums(splatter, vertices.size()))
+        CHECK(isfinite(sum));
+}
