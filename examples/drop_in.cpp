@@ -23,8 +23,13 @@ struct Scene {
             for (const float t : {-b - std::sqrt(root), -b + std::sqrt(root)})
                 if (t > t_min && t < t_max) {
                     const Vec normal = glm::normalize(to_origin + t * direction), at = center + radius * normal;
-                    return Hit{t, at, normal, normal, nephroid::sphere_curvature<Vec>(radius),
-                               nephroid::rounding_error(origin, t, at), 1};
+                    return Hit{t,
+                               at,
+                               normal,
+                               normal,
+                               nephroid::sphere_curvature<Vec>(radius),
+                               nephroid::rounding_error(origin, t, at),
+                               1};
                 }
         const float t = -origin.z / direction.z;
         if (!(t > t_min && t < t_max))
@@ -58,8 +63,8 @@ int main() {
         {.direction = {0.3f, 0, -1}, .irradiance = 1, .patch = nephroid::BoundingSphere<Vec>{{0, 0, 1.3f}, 1}});
     nephroid::ThreadExecutor threads;
 
-    const auto statistics = nephroid::splat_caustics(Scene{}, sun, splatter, {.count = 50'000},
-                                                     nephroid::HaltonSequence(), threads);
+    const auto statistics =
+        nephroid::splat_caustics(Scene{}, sun, splatter, {.count = 50'000}, nephroid::HaltonSequence(), threads);
 
     std::vector<float> irradiance(size * size);
     splatter.for_each([&](std::size_t vertex, float e) { irradiance[vertices[vertex].pixel] += e; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  How far the photons' tangents are from the truth on hard cases, with your compiler and your flags: paths of one to
-///        six reflections and refractions against differences in quadruple precision, in float and in double.
+/// @file  How far the photons' tangents are from the truth on hard cases, with your compiler and your flags: paths of
+///        one to six reflections and refractions against differences in quadruple precision, in float and in double.
 #include "numerics/group_table.hpp"
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Measures second-order splatting against first order at its best smoothing: at equal photons, at equal time, and
-///        how both converge.
+/// @file  Measures second-order splatting against first order at its best smoothing: at equal photons, at equal time,
+///        and how both converge.
 #include "common/image/file.hpp"
 #include "common/second_order/tables.hpp"
 

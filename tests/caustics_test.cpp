@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/caustics.hpp"
 
-#include "support/brute_force.hpp"
 #include "nephroid/quality/reference/wave.hpp"
+#include "support/brute_force.hpp"
 #include "support/first_order.hpp"
 #include "support/foreign_vectors.hpp"
 #include "transport/tiny_scenes.hpp"
@@ -76,7 +76,8 @@ std::vector<Vertex<Vec<T>>> floor_of(int n, double low, double high) {
     return vertices;
 }
 
-/// A mirror that throws the lamp's light onto the ceiling, a hole beside it, a black patch, and walls: of every fate some.
+/// A mirror that throws the lamp's light onto the ceiling, a hole beside it, a black patch, and walls: of every fate
+/// some.
 struct Untidy : tests::SheetScene<float> {
     template <class Sampler>
     Scattering<float, float> scatter(const SurfaceHit<glm::vec3, Flat>& hit, const glm::vec3& d,
@@ -123,8 +124,8 @@ std::vector<Vertex<Vec<T>>> ceiling() {
 } // namespace
 
 // A grid of 70 x 70 photons, 1/70 apart, each with a disk of radius s/sqrt(π 4900) and the pixel's in quadrature: by
-// Poisson's formula their sum is 1 but for the kernel's transform 48 |J₃(ω)| / ω³ at the grid's frequencies, ω = 2π 70 r |k|.
-// With |J₃(ω)| <= 0.8 / sqrt(ω) and Σ |k|^(−7/2) < 8 over the plane: 2.5e-3 for s = 8.
+// Poisson's formula their sum is 1 but for the kernel's transform 48 |J₃(ω)| / ω³ at the grid's frequencies, ω =
+// 2π 70 r |k|. With |J₃(ω)| <= 0.8 / sqrt(ω) and Σ |k|^(−7/2) < 8 over the plane: 2.5e-3 for s = 8.
 TEST_CASE_TEMPLATE("caustics: under still water the light is as it was above", T, float, double) {
     const auto vertices = floor_of<T>(32, 0.2, 0.8);
     const auto map = map_of(vertices);
@@ -213,10 +214,10 @@ WaveErrors render_wave(double amplitude, std::uint64_t photons, double smoothing
 
 } // namespace
 
-// Where it is emitted a photon's disk has r² = s²/(π N), and its kernel the variance r²/8: a wave of wavenumber k is damped
-// by half of that times k². For the first harmonic, k² = 5 (2π)², 5 % of its 0.5 rms, for the second four times that of
-// its 0.2: together a relative error of 0.05, and half as much again for the noise of 64 photons on each other. (Random
-// photons would have noise of 1/sqrt(64) · sqrt(9/5) = 0.17 alone.)
+// Where it is emitted a photon's disk has r² = s²/(π N), and its kernel the variance r²/8: a wave of wavenumber k
+// is damped by half of that times k². For the first harmonic, k² = 5 (2π)², 5 % of its 0.5 rms, for the second four
+// times that of its 0.2: together a relative error of 0.05, and half as much again for the noise of 64 photons on each
+// other. (Random photons would have noise of 1/sqrt(64) · sqrt(9/5) = 0.17 alone.)
 TEST_CASE_TEMPLATE("caustics: of a wave before its focus comes near the exact picture", T, float, double) {
     const WaveErrors errors = render_wave<T>(0.012, 5000, 8);
     CAPTURE(errors.relative);
@@ -225,9 +226,9 @@ TEST_CASE_TEMPLATE("caustics: of a wave before its focus comes near the exact pi
     CHECK(std::abs(errors.energy) < 0.001);
 }
 
-// At its folds the footprints are needles: the pixel filter keeps the energy. Of the thinnest footprints a lone one gains
-// or loses up to 0.43 of its flux on the lattice (3/π · 3/2 at a vertex, splat_test.cpp), of either sign: 5000 of nothing
-// else would leave 0.43 / sqrt(5000).
+// At its folds the footprints are needles: the pixel filter keeps the energy. Of the thinnest footprints a lone one
+// gains or loses up to 0.43 of its flux on the lattice (3/π · 3/2 at a vertex, splat_test.cpp), of either sign: 5000
+// of nothing else would leave 0.43 / sqrt(5000).
 TEST_CASE_TEMPLATE("caustics: of a focused wave keeps the energy", T, float, double) {
     const WaveErrors errors = render_wave<T>(0.04, 5000, 3);
     CAPTURE(errors.relative);
@@ -332,8 +333,8 @@ TEST_CASE("caustics: a scene's exception reaches the caller from any of the thre
 
 // Photon i is the same in whichever pass it is traced, so a picture may be made in parts that share the total: to first
 // order the same picture, as no photon knows of another.
-TEST_CASE_TEMPLATE("caustics: two passes over the parts make the picture of one bit for bit", Policies, FirstOrderPolicies,
-                   SplatPolicies<>) {
+TEST_CASE_TEMPLATE("caustics: two passes over the parts make the picture of one bit for bit", Policies,
+                   FirstOrderPolicies, SplatPolicies<>) {
     const auto whole = render_untidy<Policies>(SerialExecutor{}, {{.count = 5000}});
     for (const std::uint64_t cut : {1u, 512u, 1000u, 4999u}) {
         CAPTURE(cut);

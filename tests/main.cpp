@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Runs the tests; fails where doctest alone would pass: at a filter that matches nothing, and when asked to list a
-///        test that ctest could not run by its name.
+/// @file  Runs the tests; fails where doctest alone would pass: at a filter that matches nothing, and when asked to
+///        list a test that ctest could not run by its name.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 

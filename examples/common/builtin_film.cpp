@@ -33,8 +33,8 @@ namespace {
 
 [[nodiscard]] double amplitude_of(const std::string& wave) { return wave == "wave-prefocal" ? 0.012 : 0.04; }
 
-/// How much longer than at the lamp a footprint can be on the wave's floor: the largest change of where light lands with
-/// where it enters, along the wave's gradient, by differences over one period.
+/// How much longer than at the lamp a footprint can be on the wave's floor: the largest change of where light lands
+/// with where it enters, along the wave's gradient, by differences over one period.
 [[nodiscard]] double wave_stretch(double amplitude) {
     constexpr int steps = 4096;
     const double k = 2 * std::numbers::pi, gradient = std::sqrt(5.0); // of 2x + y

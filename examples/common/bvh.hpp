@@ -52,8 +52,8 @@ template <class Bits>
     return static_cast<unsigned>(both | both >> 32);
 }
 
-/// The hierarchy knows the primitives' bounds alone. Its leaves are numbered from 0 without gaps; what lies in leaf l is
-/// `leaf(l)`, and whoever owns the primitives may lay them out in that order.
+/// The hierarchy knows the primitives' bounds alone. Its leaves are numbered from 0 without gaps; what lies in leaf l
+/// is `leaf(l)`, and whoever owns the primitives may lay them out in that order.
 ///
 /// Built top down: the largest child is split until a node has eight, by the surface area heuristic over 16 bins.
 /// No box that a ray meets in exact arithmetic is missed.
@@ -197,8 +197,8 @@ private:
 
         /// Where the ray enters each of a node's boxes.
         ///
-        /// @return  the boxes that it meets, as bits. 0 · infinity (in a plane, and parallel to it) fails each comparison
-        ///          and bounds nothing.
+        /// @return  the boxes that it meets, as bits. 0 · infinity (in a plane, and parallel to it) fails each
+        ///          comparison and bounds nothing.
         [[nodiscard]] unsigned enter(const Planes& planes, T t_min, T t_max, std::array<T, width>& t) const {
             decltype(Lanes{} < Lanes{}) hit{};
             for (std::size_t first = 0; first < width; first += RegisterOf<T>::lanes) {

@@ -27,7 +27,8 @@ template <std::floating_point T>
 /// The reflectance of a metal.
 ///
 /// @param cos_incident  between the ray and the normal, 0 to 1
-/// @param eta,k         real and imaginary part of the metal's index over that of the medium before it, >= 0, not both 0
+/// @param eta,k         real and imaginary part of the metal's index over that of the medium before it, >= 0, not both
+///        0
 /// @return  0 to 1
 template <std::floating_point T>
 [[nodiscard]] T conductor_reflectance(T cos_incident, T eta, T k) {

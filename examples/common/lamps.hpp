@@ -52,8 +52,8 @@ struct Lamps {
 
 /// The area lamps of a scene: the triangles of its meshes that emit, one lamp for each material of each mesh.
 ///
-/// They lie in front of the triangles by more than rounding, so that neither do photons that start there hit the surface
-/// they start from, nor do shadow rays that end there. Where both sides shine both are there.
+/// They lie in front of the triangles by more than rounding, so that neither do photons that start there hit the
+/// surface they start from, nor do shadow rays that end there. Where both sides shine both are there.
 template <class T, Flux F>
 [[nodiscard]] std::vector<AreaLamp<T, F>> area_lamps(const Scene<T, F>& scene) {
     std::vector<AreaLamp<T, F>> lamps;

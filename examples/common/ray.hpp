@@ -28,8 +28,8 @@ template <class T>
     return Vec3<wide_t<T>>(v);
 }
 
-/// a × b of vectors in `wide` that were made from T: double holds the products of float's differences almost exactly, and
-/// only those of double's own can cancel.
+/// a × b of vectors in `wide` that were made from T: double holds the products of float's differences almost exactly,
+/// and only those of double's own can cancel.
 template <class T>
 [[nodiscard]] Vec3<wide_t<T>> wide_cross(const Vec3<wide_t<T>>& a, const Vec3<wide_t<T>>& b) {
     if constexpr (std::is_same_v<T, float>)

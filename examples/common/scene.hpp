@@ -219,8 +219,8 @@ public:
     }
 
 private:
-    /// Visits bounded parts as `Bvh::traverse` does leaves. A single one, a mesh perhaps with a tree of its own, needs no
-    /// tree about it.
+    /// Visits bounded parts as `Bvh::traverse` does leaves. A single one, a mesh perhaps with a tree of its own, needs
+    /// no tree about it.
     template <class Visit>
     void visit_bounded(const Ray<T>& ray, const Visit& visit) const {
         if (bounded_.size() == 1)

@@ -42,7 +42,8 @@ template <Flux F>
     if (m.emission.x > 0 || m.emission.y > 0 || m.emission.z > 0)
         return Material<F>::emitter(color_from<F>(m.emission), m.double_sided);
     if (m.transmission > 0 && (m.transmission < 0.5f || !(m.ior > 0)))
-        warn(m.ior > 0 ? "transmits less than half, shown as if it did not" : "has no index of refraction, shown opaque");
+        warn(m.ior > 0 ? "transmits less than half, shown as if it did not"
+                       : "has no index of refraction, shown opaque");
     if (m.transmission >= 0.5f && m.ior > 0) {
         if (m.roughness >= rough)
             warn("is rough glass, shown smooth");

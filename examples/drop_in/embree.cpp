@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Caustics in a renderer on Embree 3 or 4: a glass ball as a triangle mesh with interpolated normals, or as user
-///        geometry (`embree picture.pfm user`).
+/// @file  Caustics in a renderer on Embree 3 or 4: a glass ball as a triangle mesh with interpolated normals, or as
+///        user geometry (`embree picture.pfm user`).
 #include "picture.hpp"
 
 #if __has_include(<embree4/rtcore.h>)
@@ -204,7 +204,8 @@ struct nephroid::vector_traits<Vec3fa> {
 
 // The renderer's scene as one that photons walk through.
 struct CausticScene {
-    // A hit says how its normal changes: not at all, as vertex normals are interpolated, or as a surface of its own does.
+    // A hit says how its normal changes: not at all, as vertex normals are interpolated, or as a surface of its own
+    // does.
     using Curvature = nephroid::AnyCurvature<nephroid::Flat, nephroid::InterpolatedCurvature<Vec3fa>,
                                              nephroid::ShapeOperator<Vec3fa>>;
     using Hit = nephroid::SurfaceHit<Vec3fa, Curvature>;

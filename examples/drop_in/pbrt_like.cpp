@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Caustics in a renderer in the manner of pbrt: separate types for points, vectors and normals, hits with dpdu, dpdv,
-///        dndu, dndv, a spectrum class, several lights, and a film of tiles that threads add to atomically.
+/// @file  Caustics in a renderer in the manner of pbrt: separate types for points, vectors and normals, hits with dpdu,
+///        dpdv, dndu, dndv, a spectrum class, several lights, and a film of tiles that threads add to atomically.
 #include "picture.hpp"
 
 #include <array>
@@ -270,7 +270,8 @@ int main(int argc, char** argv) {
     ball->center = scene.specularCenter = {0, 0, 1.25f};
     ball->eta = 1.5f;
     scene.primitives.push_back(std::move(ball));
-    // A red sun and a green lamp, each straight above: the red of the picture is the one's caustic, the green the other's.
+    // A red sun and a green lamp, each straight above: the red of the picture is the one's caustic, the green the
+    // other's.
     scene.lights = {{Light::Distant, {0, 0, 1}, {{1, 0, 0}}}, {Light::Point, {0, 0, 5.25f}, {{0, 16, 0}}}};
 
     Film film(256);

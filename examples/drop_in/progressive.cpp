@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Caustics in an interactive renderer: photons pass by pass on the renderer's own threads, a stop button, a progress
-///        bar, and a picture at any time. The scene is a mirror half ring on a floor in the sun.
+/// @file  Caustics in an interactive renderer: photons pass by pass on the renderer's own threads, a stop button, a
+///        progress bar, and a picture at any time. The scene is a mirror half ring on a floor in the sun.
 ///        `progressive picture.pfm [stop]`: with `stop` the rendering is stopped on the way, and resumed.
 #include "picture.hpp"
 
@@ -180,7 +180,8 @@ struct CausticsLayer {
 
     // Returns when all photons are done, or soon after somebody has pressed stop; called again, it goes on from there.
     void render(const std::atomic<bool>& stop) {
-        // An executor: does task(0) … task(n − 1), here as jobs of the renderer's pool, and returns when all are done.
+        // An executor: does task(0) … task(n − 1), here as jobs of the renderer's pool, and returns when all are
+        // done.
         const auto on_pool = [this](std::size_t n, const auto& task) {
             std::vector<std::function<void()>> jobs;
             for (std::size_t i = 0; i < n; ++i)

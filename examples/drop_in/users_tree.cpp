@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Caustics in a renderer of triangles over a plain tree: madmann91's bvh v2 where its headers are found, with its
-///        vectors, and else the tree of these examples, with GLM's.
+/// @file  Caustics in a renderer of triangles over a plain tree: madmann91's bvh v2 where its headers are found, with
+///        its vectors, and else the tree of these examples, with GLM's.
 #include "picture.hpp"
 
 #if __has_include(<bvh/v2/bvh.h>)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Caustics in a renderer with virtual shapes and materials, whose hits hold a distance, a normal and a material and
-///        know nothing of curvature.
+/// @file  Caustics in a renderer with virtual shapes and materials, whose hits hold a distance, a normal and a material
+///        and know nothing of curvature.
 #include "picture.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  A caustic on the floor of the ray tracer that one writes in a weekend: a list of spheres, hit records, materials
-///        that scatter rays.
+/// @file  A caustic on the floor of the ray tracer that one writes in a weekend: a list of spheres, hit records,
+///        materials that scatter rays.
 #include "picture.hpp"
 
 #include <cmath>

@@ -101,7 +101,7 @@ void add_placed(const Footprints& footprints, Photon& photon, const Splatter& sp
 
 /// Whether footprints are to be placed and sized by neighbouring photons: they need differentials for it.
 template <class Policies, class L>
-inline constexpr bool is_second_order = Light<L> && requires(const Policies policies) {
+inline constexpr bool is_second_order = Light<L>&& requires(const Policies policies) {
     requires std::derived_from<std::remove_cvref_t<decltype(policies.order)>, SecondOrder>;
     requires std::same_as<std::remove_cvref_t<decltype(policies.shape)>, DifferentialFootprint>;
 };
@@ -110,12 +110,13 @@ inline constexpr bool is_second_order = Light<L> && requires(const Policies poli
 /// Emits photons, walks them through the scene and splats them onto an eye path map.
 ///
 /// @param scene     the renderer's: rays and surfaces (transport/scene.hpp); used from several threads
-/// @param light     one light, or a LightSet of several (emission/light/); WithoutTangents for a splatter whose policies
-///                  use no differentials (FixedFootprint)
+/// @param light     one light, or a LightSet of several (emission/light/); WithoutTangents for a splatter whose
+///                  policies use no differentials (FixedFootprint)
 /// @param splatter  holds the map and the sums, and adds to them
 /// @param pass      which photons, how many in all, how smooth
 /// @param sequence  where photon i's numbers come from; photon i is a pure function of it and i
-/// @param executor  who runs the work: called to trace and to splat each batch. The sums do not depend on it, bit for bit
+/// @param executor  who runs the work: called to trace and to splat each batch. The sums do not depend on it, bit for
+///                  bit
 /// @return  what became of the flux, and counts
 /// Throws std::invalid_argument for zero photons, a smoothing that is not positive, and bounds of `SecondOrder` that
 /// cannot be.
@@ -123,7 +124,7 @@ inline constexpr bool is_second_order = Light<L> && requires(const Policies poli
 /// photons; while a smoothing is chosen for lights without cells (cross_validation.hpp), the sums twice.
 template <class S, class L, Vector3 V, Flux F, class Policies, class Response,
           detail::MustBeSequence Sequence = HaltonSequence, ExecutorArgument E = SerialExecutor>
-    requires(detail::MustBeScene<S, V, Sampler<Sequence>> && detail::MustEmit<L, V, F>)
+    requires(detail::MustBeScene<S, V, Sampler<Sequence>>&& detail::MustEmit<L, V, F>)
 Statistics splat_caustics(const S& scene, const L& light, PhotonSplatter<V, F, Policies, Response>& splatter,
                           const PhotonPass& pass, const Sequence& sequence = Sequence{}, E&& executor = E{}) {
     using T = scalar_t<V>;

@@ -104,8 +104,8 @@ double parametric_bound(const Space& dpdu, const Space& dpdv, const Space& dndu,
            (tests::magnitude(dndu) / u + tests::magnitude(dndv) / v);
 }
 
-// p = R (sin θ cos φ, sin θ sin φ, cos θ) with u, v any mixture of θ and φ; the normal is p/R whatever the coordinates
-// are.
+// p = R (sin θ cos φ, sin θ sin φ, cos θ) with u, v any mixture of θ and φ; the normal is p/R whatever the
+// coordinates are.
 TEST_CASE_TEMPLATE("ParametricCurvature: of a sphere turns the normal by the displacement over R in any coordinates", T,
                    float, double, Wide) {
     tests::for_each_vector<T>([]<class V>() {
@@ -255,8 +255,8 @@ struct Phong {
 // In halves u of epsilon: the edges round by u, which turns the face by q u (q the skew, as for parameters) and
 // stretches it as much; its components 2 u, the gradients 10 u + 3 q u, twice products 3 u. N rounds by 5 u max|n|, so
 // a direction by 5 u r with r = max|n| / |N|, three times in the projection; that has 8 u of its own. In all (13 + 3 q
-// + 15 r + 8 + 4) u < 24 q r epsilon of G = (|grad b1| |n1 − n0| + |grad b2| |n2 − n0|) |dx| / |N|. The difference: N
-// vanishes no nearer than |N| / (G |N|), from which a quarter is taken.
+// + 15 r + 8 + 4) u < 24 q r epsilon of G = (|grad b1| |n1 − n0| + |grad b2| |n2 − n0|) |dx| / |N|. The difference:
+// N vanishes no nearer than |N| / (G |N|), from which a quarter is taken.
 TEST_CASE_TEMPLATE("interpolated_normals: change as differences of the normalised normal do", T, float, double, Wide) {
     tests::for_each_vector<T>([]<class V>() {
         Draws draw(84);

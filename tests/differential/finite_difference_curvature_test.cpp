@@ -103,7 +103,8 @@ Known on_sphere(Draws& draw) {
     return {n, n, {e, f}, {e, f}, 1};
 }
 
-// At the angle a about the axis and b about the tube: curvature 2 about the tube, cos b / (2 + cos(b) / 2) about the axis.
+// At the angle a about the axis and b about the tube: curvature 2 about the tube, cos b / (2 + cos(b) / 2) about the
+// axis.
 Known on_torus(Draws& draw) {
     const double a = draw.in(0, 6.28), b = draw.in(0, 6.28), rho = 2 + 0.5 * std::cos(b);
     const tests::Space out{std::cos(a), 0, std::sin(a)}, round{-std::sin(a), 0, std::cos(a)}, up{0, 1, 0};
@@ -146,12 +147,12 @@ struct Errors {
     double median_over_eta2; ///< what the header says that the error is about
 };
 
-// With R = 1/largest, η = h/R: the normal as a function of a shift in the tangent plane is analytic in a disk of radius
-// R/2 about the hit and there below 2, so by Cauchy's estimate the third-order term of a central difference is at most
-// 2 h²/(R/2)³, times 4/3 for the rest of the series: 22 η² of 1/R. A normal is off by 8 roundings of itself and of |p|/R
-// (the hit, the shift from the centre, the normal), so their difference over 2h by 8 ε (1 + |p|/R) / η. With the scale a
-// factor too large the rays keep their distance where the normal turns slowly, and elsewhere move closer until it does
-// so as on a scale of R/4 and more: the first term has the largest η, the second the smallest.
+// With R = 1/largest, η = h/R: the normal as a function of a shift in the tangent plane is analytic in a disk of
+// radius R/2 about the hit and there below 2, so by Cauchy's estimate the third-order term of a central difference is
+// at most 2 h²/(R/2)³, times 4/3 for the rest of the series: 22 η² of 1/R. A normal is off by 8 roundings of itself
+// and of |p|/R (the hit, the shift from the centre, the normal), so their difference over 2h by 8 ε (1 + |p|/R) / η.
+// With the scale a factor too large the rays keep their distance where the normal turns slowly, and elsewhere move
+// closer until it does so as on a scale of R/4 and more: the first term has the largest η, the second the smallest.
 template <class V, template <class> class Field>
 Errors errors_on(Known (*draw_point)(Draws&), const Setting& setting) {
     using T = scalar_t<V>;
@@ -407,8 +408,9 @@ struct NoNumbers {
 
 } // namespace
 
-// dn's errors of 22 η² and 8 ε/η, η³ = 4 ε, are 1e-9; two refractions and the flight to the floor magnify them by less
-// than 20, as dω = (1 − 1/1.5) dn and dω = (1.5 − 1) dn at normal incidence, times 2 of flight and 3 at 60 degrees.
+// dn's errors of 22 η² and 8 ε/η, η³ = 4 ε, are 1e-9; two refractions and the flight to the floor magnify them
+// by less than 20, as dω = (1 − 1/1.5) dn and dω = (1.5 − 1) dn at normal incidence, times 2 of flight and 3 at
+// 60 degrees.
 TEST_CASE("finite_difference_curvature: gives a walk through glass the tangents that the exact curvature gives") {
     const BallScene known;
     const Tracing traced{known};

@@ -35,8 +35,8 @@ struct Turning {
     Space operator()(const Wide& p) const { return (at + p * slope).unit(); }
 };
 
-// u: half an epsilon. ω and n are unit to 2 u, so ω − 2 (ω·n) n is off by up to (1 + 2 · 3) · 2 u from them, and 5 u
-// for ω·n, times 2, and 4 u for the rest: 28 u = 14 epsilon.
+// u: half an epsilon. ω and n are unit to 2 u, so ω − 2 (ω·n) n is off by up to (1 + 2 · 3) · 2 u from them,
+// and 5 u for ω·n, times 2, and 4 u for the rest: 28 u = 14 epsilon.
 TEST_CASE_TEMPLATE("reflection: sends a ray to the mirror image of where it came from", T, float, double, Wide) {
     tests::for_each_vector<T>([]<class V>() {
         Draws draw(51);
@@ -50,8 +50,8 @@ TEST_CASE_TEMPLATE("reflection: sends a ray to the mirror image of where it came
 
 // The formula's terms are at most M = 3 |dω| + 4 |dn| in all. In halves u of epsilon: dot products 3 each, doubled and
 // summed 5, times n 6, plus the rest 8; the last projection 5; ω, n unit to 2 u, which occur up to twice in a term, 8;
-// dω, dn orthogonal to 2 u, 4. 25 u M < 16 epsilon M. The difference: unit vectors at + p · slope are analytic for |p|
-// < 1 / |slope|.
+// dω, dn orthogonal to 2 u, 4. 25 u M < 16 epsilon M. The difference: unit vectors at + p · slope are analytic for
+// |p| < 1 / |slope|.
 TEST_CASE_TEMPLATE("reflection: differentiates as differences do", T, float, double, Wide) {
     tests::for_each_vector<T>([]<class V>() {
         Draws draw(52);

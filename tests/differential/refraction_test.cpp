@@ -56,9 +56,9 @@ struct Event {
     }
 };
 
-// In halves u of epsilon, with H = max(1, eta²) and the refracted cosine c'. ω·n: 5 u with ω and n unit to 2 u. c'² = 1
-// − eta² sin²: eta² (2 · 5 + 3) u + u, so c' is off by 7 H u / c'. μ = eta c − c': 6 eta u + 7 H u / c'; the sum eta ω
-// + μ n adds 4 (eta + 1) u and normalising 6 u. Together below 32 H u / c' = 16 epsilon H / c'.
+// In halves u of epsilon, with H = max(1, eta²) and the refracted cosine c'. ω·n: 5 u with ω and n unit to 2 u.
+// c'² = 1 − eta² sin²: eta² (2 · 5 + 3) u + u, so c' is off by 7 H u / c'. μ = eta c − c': 6 eta u + 7 H u /
+// c'; the sum eta ω + μ n adds 4 (eta + 1) u and normalising 6 u. Together below 32 H u / c' = 16 epsilon H / c'.
 TEST_CASE_TEMPLATE("refraction: obeys the law of Snell", T, float, double, Wide) {
     tests::for_each_vector<T>([]<class V>() {
         Draws draw(61);
@@ -75,12 +75,12 @@ TEST_CASE_TEMPLATE("refraction: obeys the law of Snell", T, float, double, Wide)
     });
 }
 
-// As above, D = |dω| + |dn| + |d eta|. dc: 6 u D. g = dμ/dc = eta − eta² c/c': eta² (5/c' + 7 H/c'³) u for its c and
-// c', 4 u of its own; |g| <= eta + eta²/c'. dμ/d eta = c + eta sin²/c': (5 + 13 eta/c' + 7 eta H/c'³) u. μ dn: 6 eta u
-// + 7 H u/c'. Then the sum's and the projection's roundings, ten of |dω'| <= D (3 eta + eta²/c' + 2 + eta/c'), and the
-// error 32 H u/c' of ω' twice in the projection. All terms are at most H² / c'³: their coefficients sum to less than
-// 256 u = 128 epsilon. The difference: c' and the incident sine vanish at |p| >= c'²/8 or leave the domain; the sine's
-// zero is a removable singularity.
+// As above, D = |dω| + |dn| + |d eta|. dc: 6 u D. g = dμ/dc = eta − eta² c/c': eta² (5/c' + 7 H/c'³) u for its c
+// and c', 4 u of its own; |g| <= eta + eta²/c'. dμ/d eta = c + eta sin²/c': (5 + 13 eta/c' + 7 eta H/c'³) u. μ dn:
+// 6 eta u + 7 H u/c'. Then the sum's and the projection's roundings, ten of |dω'| <= D (3 eta + eta²/c' + 2 +
+// eta/c'), and the error 32 H u/c' of ω' twice in the projection. All terms are at most H² / c'³: their coefficients
+// sum to less than 256 u = 128 epsilon. The difference: c' and the incident sine vanish at |p| >= c'²/8 or leave the
+// domain; the sine's zero is a removable singularity.
 template <class V>
 void check_derivative(const Event<V>& e, bool dispersed) {
     using T = scalar_t<V>;
@@ -115,8 +115,8 @@ TEST_CASE_TEMPLATE("refraction: differentiates by the index as differences do", 
     });
 }
 
-// Straight through: ω' = ω, and to first order the angles are in the ratio of the indices: dω' = eta dω + (eta − 1) dn.
-// All exact but for products.
+// Straight through: ω' = ω, and to first order the angles are in the ratio of the indices: dω' = eta dω + (eta −
+// 1) dn. All exact but for products.
 TEST_CASE_TEMPLATE("refraction: at normal incidence small angles are in the ratio of the indices", T, float, double,
                    Wide) {
     tests::for_each_vector<T>([]<class V>() {
@@ -155,8 +155,8 @@ TEST_CASE_TEMPLATE("refraction: survives a cosine that rounds to more than one",
     CHECK(above > 0); // or this tests nothing
 }
 
-// The apex focal length of one refracting sphere, from n1 into n2: a paraxial ray at height y turns by −y (1 − eta) /
-// R.
+// The apex focal length of one refracting sphere, from n1 into n2: a paraxial ray at height y turns by −y (1 − eta)
+// / R.
 TEST_CASE_TEMPLATE("refraction: a sphere's first surface focuses at R over one minus eta", T, float, double) {
     tests::for_each_vector<T>([]<class V>() {
         const T radius = T(0.5), eta = T(1) / T(1.5);
@@ -174,8 +174,8 @@ V at_sine(const Wide& sine) {
     return tests::narrow<V>({sine, 0, -sqrt(Wide(1) - sine * sine)});
 }
 
-// c'² = 1 − eta² sin² is found to 13 eta² u + u (above) <= 16 epsilon for eta = 1.5; just beyond and just below mean
-// more than that.
+// c'² = 1 − eta² sin² is found to 13 eta² u + u (above) <= 16 epsilon for eta = 1.5; just beyond and just below
+// mean more than that.
 TEST_CASE_TEMPLATE("refraction: is finite just below the critical angle and nothing just beyond it", T, float, double,
                    Wide) {
     tests::for_each_vector<T>([]<class V>() {
@@ -187,7 +187,8 @@ TEST_CASE_TEMPLATE("refraction: is finite just below the critical angle and noth
         CHECK(below->cos_refracted() > T(0));
         const V huge = below->differentiate(make_vector<V>(0, 1, 0), make_vector<V>(1, 0, 0));
         CHECK(all_finite(huge));
-        // |dω'| is about eta² c sin'... / c' for a normal that turns in the plane: it does diverge, and is not hidden.
+        // |dω'| is about eta² c sin'... / c' for a normal that turns in the plane: it does diverge, and is not
+        // hidden.
         CHECK(tests::magnitude(tests::widen(huge)) > 0.1 / std::sqrt(32 * epsilon<T>()));
         CHECK(!refraction(at_sine<V>(Wide(0.9)), up, T(1.5)).has_value()); // total internal reflection
     });
@@ -228,8 +229,8 @@ TEST_CASE_TEMPLATE("refraction: the derivative is orthogonal to the ray even whe
     });
 }
 
-// c' = c exactly, so ω' = ω and dω' = dω whatever the surface does: 4 roundings; then c'/c is off by u and dμ/dc by as
-// much.
+// c' = c exactly, so ω' = ω and dω' = dω whatever the surface does: 4 roundings; then c'/c is off by u and dμ/dc
+// by as much.
 TEST_CASE_TEMPLATE("refraction: equal indices bend nothing even at grazing incidence", T, float, double, Wide) {
     tests::for_each_vector<T>([]<class V>() {
         const V up = make_vector<V>(0, 0, 1), d_ray = make_vector<V>(0, 1, 0), d_normal = make_vector<V>(3, 4, 0);

@@ -64,9 +64,9 @@ struct Bound {
         position_error = (position_error + distance * direction_error) / cosine + (10 + 2 * ray_error) * f / cosine2;
         position = f / cosine;
     }
-    // The ray changes c by its error e, c' by eta² c/c' e and so dμ/dc by (eta²/c' + eta⁴/c'³) e; it is in dc itself,
-    // by e, which dμ/dc magnifies, and in the projection twice: 8 H²/c'³ holds them all. Principal curvatures: 24 dx /
-    // R.
+    // The ray changes c by its error e, c' by eta² c/c' e and so dμ/dc by (eta²/c' + eta⁴/c'³) e; it is in dc
+    // itself, by e, which dμ/dc magnifies, and in the projection twice: 8 H²/c'³ holds them all. Principal
+    // curvatures: 24 dx / R.
     void refract(double eta, double cosine, double bent_cosine, double curvature) {
         const double h = std::max(1.0, eta * eta), bent_cosine3 = bent_cosine * bent_cosine * bent_cosine;
         const double slope = std::abs(eta - eta * eta * cosine / bent_cosine);

@@ -17,8 +17,8 @@ using tests::Wide;
 
 namespace {
 
-// Rays fanned by the angle a from height h meet the floor at x = h tan a, so dx/da = h / cos² a. With F = |dx| + t |dω|
-// = h / cos a the bound is that of the next test, in closed form.
+// Rays fanned by the angle a from height h meet the floor at x = h tan a, so dx/da = h / cos² a. With F = |dx| + t
+// |dω| = h / cos a the bound is that of the next test, in closed form.
 TEST_CASE_TEMPLATE("transfer: a fan of rays from height h spreads by h over cos squared", T, float, double) {
     tests::for_each_vector<T>([]<class V>() {
         for (const T angle : {T(0), T(0.3), T(-1.2), T(1.5)}) {
@@ -69,10 +69,10 @@ Event drawn(Draws& draw, double least_cosine) {
 }
 
 // With F = |dx| + t |dω| and the cosine c at the plane: dx + t dω rounds twice, 2 u F in halves u of epsilon, and the
-// direction, a unit vector to 2 u, gives 2 u F; n · (dx + t dω) / (n · ω) multiplies these by 1/c, adds 5 u F/c for its
-// own roundings, and 5 u F/c² for n · ω, off by 5 u; one rounding of the sum. In all (4 + 9/c + 5/c² + 1) u F < 10
-// epsilon F / c². The difference: x(p) has its singularity where the ray becomes parallel, farther than c / 8 for |dω|
-// <= sqrt 3.
+// direction, a unit vector to 2 u, gives 2 u F; n · (dx + t dω) / (n · ω) multiplies these by 1/c, adds 5 u F/c for
+// its own roundings, and 5 u F/c² for n · ω, off by 5 u; one rounding of the sum. In all (4 + 9/c + 5/c² + 1) u F <
+// 10 epsilon F / c². The difference: x(p) has its singularity where the ray becomes parallel, farther than c / 8 for
+// |dω| <= sqrt 3.
 TEST_CASE_TEMPLATE("transfer: is the derivative of where a ray meets a tilted plane", T, float, double, Wide) {
     tests::for_each_vector<T>([]<class V>() {
         Draws draw(41);

@@ -2,8 +2,8 @@
 #include "nephroid/emission/aligned_basis.hpp"
 
 #include "nephroid/differential/transfer.hpp"
-#include "nephroid/sequence/random.hpp"
 #include "nephroid/emission/warp.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/emission/beam.hpp"
 
-#include "nephroid/sequence/random.hpp"
 #include "nephroid/emission/warp.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

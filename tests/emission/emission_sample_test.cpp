@@ -3,8 +3,8 @@
 
 #include "emission/light/light_laws.hpp"
 
-#include "nephroid/sequence/halton.hpp"
 #include "nephroid/emission/light/standard_lights.hpp"
+#include "nephroid/sequence/halton.hpp"
 
 #include <doctest/doctest.h>
 

@@ -60,8 +60,8 @@ void off_the_seams(const std::function<void(double, double)>& visit) {
     }
 }
 
-// Truncation: h²/6 times third derivatives, which are below (π/2)³ / r² for the smallest radius r = 0.1 visited, and
-// rounding 1/h, both about 1e-16^(2/3); with relative margin 100.
+// Truncation: h²/6 times third derivatives, which are below (π/2)³ / r² for the smallest radius r = 0.1 visited,
+// and rounding 1/h, both about 1e-16^(2/3); with relative margin 100.
 constexpr double slope_tolerance = 5e-9;
 
 const D tilted = normalize(D(1, -2, 0.5));
@@ -134,8 +134,8 @@ TEST_CASE("warp: each map stretches area by the same factor everywhere") {
 
 // No map is steeper than the octahedral one at its poles: with r = |a| + |b| and |a| = |2 u1 - 1| its speed by |a| is
 // 2 / sqrt(2 - r²) along the meridian and at most π/2 sqrt(2 - r²) along the parallel, so by u1 in all
-// 2 sqrt(2 + π²/2). The concentric map has 2 sqrt(1 + π²/16), and onto a hemisphere 2 sqrt(4 + π²/8). A jump adds its
-// length.
+// 2 sqrt(2 + π²/2). The concentric map has 2 sqrt(1 + π²/16), and onto a hemisphere 2 sqrt(4 + π²/8). A jump adds
+// its length.
 TEST_CASE("warp: the maps are continuous") {
     constexpr int n = 256;
     constexpr double step = 1.0 / n, steepest = 5.2661;

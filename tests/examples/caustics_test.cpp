@@ -48,8 +48,9 @@ namespace {
 } // namespace
 
 TEST_CASE("caustics: options are read, and numbers may be written as powers of ten") {
-    const auto options = read({"ring", "--photons", "1e6", "--size", "640x360", "--sequence", "sobol", "--kernel", "cone",
-                               "--first-order", "--smoothing", "6.5", "--pixel-filter", "off", "--view", "0", "1", "-0.5", "0.5"});
+    const auto options =
+        read({"ring", "--photons", "1e6", "--size", "640x360", "--sequence", "sobol", "--kernel", "cone",
+              "--first-order", "--smoothing", "6.5", "--pixel-filter", "off", "--view", "0", "1", "-0.5", "0.5"});
     REQUIRE(options.has_value());
     CHECK(options->photons == 1'000'000);
     CHECK(options->width == 640);

@@ -173,8 +173,8 @@ TEST_CASE("compare: every method makes the same picture from stored photons as f
                 CHECK(lamp.seconds.trace > 0);
                 CHECK(lamp.seconds.build > 0);
                 CHECK(lamp.seconds.estimate > 0);
-                // The k nearest photons do not keep energy, few of them at folds least of all: an eighth is gained here.
-                // An area or a flux that is wrong by a factor is off by more than this.
+                // The k nearest photons do not keep energy, few of them at folds least of all: an eighth is gained
+                // here. An area or a flux that is wrong by a factor is off by more than this.
                 CHECK(std::abs(bench.errors(lamp.irradiance).energy) < 0.25);
             }
         }

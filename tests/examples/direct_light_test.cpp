@@ -103,8 +103,8 @@ TEST_CASE_TEMPLATE("direct light: a lamp behind a wall does not light", T, float
     CHECK(light.irradiance(on_floor<T>(T(0.3), 0), 0).x > 0);
 }
 
-// Oracle: the integral of L cos cos' / r² over the quad by 200 × 200 midpoints. With n stratified rays the error is about
-// 1/n of the integrand's variation; the mean of 64 vertices with 64 rays each is good to a thousandth.
+// Oracle: the integral of L cos cos' / r² over the quad by 200 × 200 midpoints. With n stratified rays the error is
+// about 1/n of the integrand's variation; the mean of 64 vertices with 64 rays each is good to a thousandth.
 TEST_CASE_TEMPLATE("direct light: a quad lights a floor as the quadrature over it says", T, float, double) {
     const Vec3<T> radiance(2, 1, T(0.5));
     const Scene<T> scene =

@@ -4,8 +4,8 @@
 #include "common/builtin_cases.hpp"
 #include "support/is_sanitized.hpp"
 
-#include "nephroid/sequence/halton.hpp"
 #include "nephroid/caustics.hpp"
+#include "nephroid/sequence/halton.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>
@@ -63,7 +63,8 @@ struct Energy {
             // A photon without a splat keeps its flux, and the picture lacks it.
             const auto outcome = make_splat(*deposit, map, policies);
             const Vec at = map.tree().relative(deposit->position);
-            const nephroid::Box<float> box = outcome.splat ? outcome.splat->box : nephroid::Box<float>{{at.x, at.y, 0}, {at.x, at.y, 0}};
+            const nephroid::Box<float> box =
+                outcome.splat ? outcome.splat->box : nephroid::Box<float>{{at.x, at.y, 0}, {at.x, at.y, 0}};
             if (box.low[0] >= bounds.low[0] && box.low[1] >= bounds.low[1] && box.high[0] <= bounds.high[0] &&
                 box.high[1] <= bounds.high[1]) {
                 energy.flux += double(deposit->flux);
@@ -83,7 +84,8 @@ struct Energy {
 
 // A splat of the filter's least size gains or loses up to 0.43 of its flux with where it lies between the pixels
 // (1.43 at a vertex: the biweight's peak over 0.816²); over many places that averages out. A tenth of the ball's light
-// falls within one pixel of its axis, at 64 x 64: 0.043 if all of it were off the same way. A hundredth says that it is not.
+// falls within one pixel of its axis, at 64 x 64: 0.043 if all of it were off the same way. A hundredth says that it is
+// not.
 TEST_CASE("energy: with the pixel filter a picture keeps its photons' flux to a hundredth in the worst case" *
           doctest::skip(is_sanitized)) {
     for (const std::string_view name : builtin_case_names)

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The examples' shapes in dual numbers: second and third derivatives of photons' paths through them, against differences
-// of the whole path in wide precision.
+// The examples' shapes in dual numbers: second and third derivatives of photons' paths through them, against
+// differences of the whole path in wide precision.
 #include "nephroid/smoothing/second_order/exact_path_derivatives.hpp"
 
 #include "common/shapes/cylinder.hpp"
 #include "common/shapes/flat.hpp"
 #include "common/shapes/sphere.hpp"
 #include "common/shapes/wave.hpp"
-#include "smoothing/second_order/emission_differences.hpp"
 #include "numerics/arithmetic.hpp"
+#include "smoothing/second_order/emission_differences.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
 #include "nephroid/emission/light/point.hpp"

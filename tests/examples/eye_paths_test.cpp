@@ -86,7 +86,8 @@ TEST_CASE_TEMPLATE("eye paths: behind a slab of glass the weights are the slab's
         T nearest = 1;
         for (const auto& vertex : eye.vertices)
             nearest = std::min(nearest, std::abs(vertex.weight.x * T(std::numbers::pi) - expected));
-        // Rays start off a surface by its position error, of a few hundred roundings: the way inside is shorter by that.
+        // Rays start off a surface by its position error, of a few hundred roundings: the way inside is shorter by
+        // that.
         CHECK(nearest < 1000 * std::numeric_limits<T>::epsilon());
     }
     // Index and distance cancel on the way through: the vertices lie straight below.

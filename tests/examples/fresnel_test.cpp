@@ -38,7 +38,8 @@ TEST_CASE_TEMPLATE("fresnel: all is reflected from the critical angle on and at 
     CHECK(conductor_reflectance<T>(0, T(0.2), T(3)) == 1);
 }
 
-// Reflectance and transmittance are computed apart: T = (n₂ c₂)/(n₁ c₁) · mean of the squared amplitudes 2 n₁ c₁/(…).
+// Reflectance and transmittance are computed apart: T = (n₂ c₂)/(n₁ c₁) · mean of the squared amplitudes
+// 2 n₁ c₁/(…).
 TEST_CASE_TEMPLATE("fresnel: what is reflected and what is transmitted add up to one", T, float, double) {
     const T eta = 1 / T(1.5);
     for (T c = T(0.05); c <= 1; c += T(0.05)) {

@@ -44,8 +44,8 @@ TEST_CASE("glTF: a buffer may be in the binary chunk, in the text, or in a file 
 
 TEST_CASE("glTF: what is no file, or no glTF, is refused in one line that names it") {
     const TemporaryFolder folder;
-    CHECK_THROWS_WITH_AS(static_cast<void>(read_gltf(folder / "none.glb")),
-                         doctest::Contains("none.glb: no such file"), std::runtime_error);
+    CHECK_THROWS_WITH_AS(static_cast<void>(read_gltf(folder / "none.glb")), doctest::Contains("none.glb: no such file"),
+                         std::runtime_error);
     CHECK_THROWS_WITH_AS(static_cast<void>(read_gltf(folder.path())), doctest::Contains("not a file"),
                          std::runtime_error);
     check_problem(problem_of(std::string()), "an empty file");

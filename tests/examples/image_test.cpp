@@ -91,9 +91,7 @@ std::string message_of(Call call) {
     return {};
 }
 
-bool contains(const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-}
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// Values that any conversion on the way would change: signs of zero, the ends of the range, neighbours of 1.
 const std::vector<float> hard_values{0.0f,

@@ -62,10 +62,10 @@ private:
     std::array<double, D> step_{};
 };
 
-/// The light of a disk that faces the origin, reflected by the half cylinder of nephroid/quality/reference/ring.hpp, taken along its own
-/// way: from a point of the disk to a column of the mirror, and from there on, seen from above, along chords of the
-/// circle or out where there is no mirror. What the column reflects lands on a line on the floor, and its density along
-/// the line is known, as the height at which light meets the column says how far it gets.
+/// The light of a disk that faces the origin, reflected by the half cylinder of nephroid/quality/reference/ring.hpp,
+/// taken along its own way: from a point of the disk to a column of the mirror, and from there on, seen from above,
+/// along chords of the circle or out where there is no mirror. What the column reflects lands on a line on the floor,
+/// and its density along the line is known, as the height at which light meets the column says how far it gets.
 class RingSums {
 public:
     RingSums(const Vec& center, double radius, double radiance, const exact::Film& film)
@@ -165,8 +165,8 @@ private:
     bool once_ = false;
 };
 
-/// The light of a sphere that sends 16 W/sr, refracted twice by the ball of nephroid/quality/reference/ball.hpp. Parallel rays of the
-/// sphere's light make a disk: they are a lattice over directions and disks.
+/// The light of a sphere that sends 16 W/sr, refracted twice by the ball of nephroid/quality/reference/ball.hpp.
+/// Parallel rays of the sphere's light make a disk: they are a lattice over directions and disks.
 [[nodiscard]] exact::Image ball_sums(double radius, const exact::Film& film, std::size_t rays) {
     exact::Image image(std::size_t(film.width) * std::size_t(film.height));
     const double sine = (1 + radius) / 4, height = 1 - std::sqrt(1 - sine * sine); // all that may meet the ball
@@ -367,8 +367,8 @@ TEST_CASE("path tracer: under a uniform sky a glass ball is as bright as the sky
     check_agreement(compare(path_trace_reference(ball, size, size, few(512), serial), truth), 32);
 }
 
-// Below flat water the sky is squeezed into the critical cone, n² times as bright: π all in all, less what the surface
-// reflects and the water absorbs.
+// Below flat water the sky is squeezed into the critical cone, n² times as bright: π all in all, less what the
+// surface reflects and the water absorbs.
 TEST_CASE("path tracer: flat water passes on the light of a uniform sky") {
     const double index = 1.33, depth = 0.5;
     struct Kind {

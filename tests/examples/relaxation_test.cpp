@@ -165,7 +165,8 @@ TEST_CASE("edge_width: a step is as wide as the offsets are apart and what stays
     CHECK(std::isnan(edge_width(edge, bright)));
 }
 
-// The densest lattice of places that matters: 1000 × 1000, whose mean is off by the pixels that edges cross, 1e-3 at most.
+// The densest lattice of places that matters: 1000 × 1000, whose mean is off by the pixels that edges cross, 1e-3 at
+// most.
 TEST_CASE("pattern: the ellipse and the bars have the mean and the edges that they say") {
     const Pattern bars = pattern("ellipse-and-bars");
     double sum = 0;

@@ -4,8 +4,8 @@
 
 #include "examples/worlds.hpp"
 
-#include "nephroid/sequence/halton.hpp"
 #include "nephroid/emission/light/standard_lights.hpp"
+#include "nephroid/sequence/halton.hpp"
 #include "nephroid/transport/walk.hpp"
 
 #include <doctest/doctest.h>
@@ -226,8 +226,8 @@ TEST_CASE_TEMPLATE("scene: the flux of walks through glass and mirrors is accoun
     CHECK(account[Fate::invalid].flux < 1e-3 * account.emitted.flux);
 }
 
-// What is known of the cases in closed form or by quadrature (the project's mathematics, "The exact cases"): the flux on
-// the floor. 4000 stratified photons find it to about a thousandth.
+// What is known of the cases in closed form or by quadrature (the project's mathematics, "The exact cases"): the flux
+// on the floor. 4000 stratified photons find it to about a thousandth.
 TEST_CASE_TEMPLATE("builtin cases: the light on the floor is what it should be", T, float, double) {
     const auto on_floor = [](std::string_view name, bool fresnel) {
         const auto c = builtin_case<T, T>(name, fresnel).value();

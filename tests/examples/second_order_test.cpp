@@ -7,10 +7,10 @@
 #include "support/first_order.hpp"
 #include "support/is_sanitized.hpp"
 
-#include "nephroid/sequence/random.hpp"
 #include "nephroid/caustics.hpp"
 #include "nephroid/quality/error.hpp"
 #include "nephroid/quality/exposure.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

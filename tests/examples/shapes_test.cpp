@@ -53,8 +53,9 @@ void check_hit(const Hit<T>& hit, const Ray<T>& ray, const Implicit& surface) {
     // The refined position is the ray's: distances are of order 10, so is the rounding of the ray itself.
     CHECK(norm(RealVec3(ray.origin) + Real(hit.distance) * RealVec3(ray.direction) - p) < 64 * epsilon<T>);
 
-    // Two steps of h along a tangent; the position leaves the surface by h² only. The error is h² times the normal's third
-    // derivative, for the wave amplitude · (2π √5)⁴ / 6 = 260: below 3e-8; the inner difference adds 1e-13 / h.
+    // Two steps of h along a tangent; the position leaves the surface by h² only. The error is h² times the normal's
+    // third derivative, for the wave amplitude · (2π √5)⁴ / 6 = 260: below 3e-8; the inner difference adds 1e-13
+    // / h.
     const auto frame = nephroid::frame_about(hit.geometric_normal);
     for (const Vec3<T>& tangent : {frame.u, frame.v}) {
         const Real h = 1e-5L;

@@ -111,8 +111,8 @@ TEST_CASE_TEMPLATE("footprint: its semi-axes are half the displacements", T, flo
     });
 }
 
-// The polygon through m points of the ellipse at even steps of φ has exactly the area |a × b| m/2 sin(2π/m). The cross
-// product is right to a few roundings of itself (not of |a| |b|), the dot product adds a few of its length.
+// The polygon through m points of the ellipse at even steps of φ has exactly the area |a × b| m/2 sin(2π/m). The
+// cross product is right to a few roundings of itself (not of |a| |b|), the dot product adds a few of its length.
 TEST_CASE_TEMPLATE("ellipse: the area is that of a polygon on its outline", T, float, double) {
     Draws draw(1);
     constexpr int m = 64;
@@ -179,8 +179,8 @@ TEST_CASE_TEMPLATE("ellipse: the radii are the longest and the shortest way to t
     }
 }
 
-// Two unit axes at the angle t span an ellipse of major radius sqrt(1 + cos t), up to √2: the paper's ½ max(|Dux|, |Dvx|)
-// is 1 whatever t.
+// Two unit axes at the angle t span an ellipse of major radius sqrt(1 + cos t), up to √2: the paper's ½ max(|Dux|,
+// |Dvx|) is 1 whatever t.
 TEST_CASE("ellipse: the longer axis vector is up to root two shorter than the major radius") {
     for (const double t : {1e-3, 0.1, 0.5, 1.0, 1.5}) {
         const Ellipse<glm::dvec3> e{{1, 0, 0}, {std::cos(t), std::sin(t), 0}, {0, 0, 1}};
@@ -296,8 +296,8 @@ TEST_CASE_TEMPLATE("anisotropy: the axis ratio is exact and the paper's measure 
     CHECK(area(E{{1, 1, 0}, {2, 2, 0}, {0, 0, 1}}) == 0);
 }
 
-// Every entry of the covariance is a sum of products of lengths: 32 roundings of |a|² + |b|² + r². And the minor radius
-// keeps its own digits, which those entries do not have.
+// Every entry of the covariance is a sum of products of lengths: 32 roundings of |a|² + |b|² + r². And the minor
+// radius keeps its own digits, which those entries do not have.
 TEST_CASE_TEMPLATE("add_disk: the covariance grows by that of the disk", T, float, double) {
     const double least_ratio = std::is_same_v<T, float> ? 1e-3 : 1e-6;
     tests::for_each_vector<T>([&]<class V>() {
@@ -392,7 +392,8 @@ TEST_CASE_TEMPLATE("footprint: any number of tangents adds up to the ellipse of 
             const std::array<V, 2> two{uv.a, uv.b};
             const std::array<V, 3> three{uv.a, uv.b, third};
             const std::array<V, 4> four{uv.a, uv.b, third, fourth};
-            // A quarter: semi-axes are half the displacements. 32 roundings of the sum of squares, at most 1 + 1 + 4 + 4.
+            // A quarter: semi-axes are half the displacements. 32 roundings of the sum of squares, at most 1 + 1 + 4 +
+            // 4.
             Matrix expected{};
             const auto add = [&](const V& d) { add_outer(expected, tests::widen(d), 0.25); };
             add(uv.a), add(uv.b);

@@ -13,8 +13,9 @@
 namespace nephroid::tests {
 
 /// ∫ x^(2m) k over the unit disk along one axis: m = 0 is its integral, m = 1 the second moment. In polar coordinates
-/// 2π ∫ k r dr and π ∫ k r³ dr, by three-point Gauss quadrature on 256 panels: it never asks for r = 1, where a kernel
-/// may jump, and leaves (1/256)^6 f⁗'' / 2016000, far below a rounding, for a kernel that is smooth in r up to the edge.
+/// 2π ∫ k r dr and π ∫ k r³ dr, by three-point Gauss quadrature on 256 panels: it never asks for r = 1, where a
+/// kernel may jump, and leaves (1/256)^6 f⁗'' / 2016000, far below a rounding, for a kernel that is smooth in r up to
+/// the edge.
 template <class T, class K>
 [[nodiscard]] double disk_moment(const K& kernel, int m) {
     constexpr int panels = 256;
@@ -58,8 +59,8 @@ void check_kernel_laws(const K& kernel = K{}) {
         CHECK(kernel(radius2) == T(0));
 
     INFO("normalised, with the second moment that it declares");
-    // r² and k are rounded a few times. A slope like −1/r (the cone's) or 4.5 k (the Gaussian's) doubles or so what r²
-    // contributes: 16 roundings in all.
+    // r² and k are rounded a few times. A slope like −1/r (the cone's) or 4.5 k (the Gaussian's) doubles or so what
+    // r² contributes: 16 roundings in all.
     CHECK(std::abs(disk_moment<T>(kernel, 0) - 1) <= 16 * epsilon);
     const double second = static_cast<double>(K::second_moment);
     CHECK(std::abs(disk_moment<T>(kernel, 1) - second) <= 16 * epsilon * second);

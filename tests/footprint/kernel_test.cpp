@@ -75,8 +75,9 @@ TEST_CASE("pixel filter width: is the square root of two thirds for the biweight
     CHECK(std::abs(pixel_filter_width<EpanechnikovKernel> - std::sqrt(0.5)) <= 2.3e-16);
 }
 
-// By r2: −6/π (1 − r2), −2/π, −3/(2π r), 0, −9/2 k. Central differences in double with h = 1e-5 are off by h²/6 times the
-// third derivative, which is largest for the cone at 0.045, 9/(8π) r⁻⁵ < 900, plus rounding, epsilon / h: below 1e-7.
+// By r2: −6/π (1 − r2), −2/π, −3/(2π r), 0, −9/2 k. Central differences in double with h = 1e-5 are off
+// by h²/6 times the third derivative, which is largest for the cone at 0.045, 9/(8π) r⁻⁵ < 900, plus rounding,
+// epsilon / h: below 1e-7.
 TEST_CASE("kernels: have the derivatives of their formulas inside the disk") {
     const double h = 1e-5;
     const auto slope = [&](const auto& kernel, double r2) { return (kernel(r2 + h) - kernel(r2 - h)) / (2 * h); };

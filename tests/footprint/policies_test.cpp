@@ -17,7 +17,8 @@ using Vec = glm::vec<3, T>;
 template <class T>
 constexpr T epsilon = std::numeric_limits<T>::epsilon();
 
-/// Semi-axes of these lengths in a tilted plane, as two vectors at the angle t along the ellipse: conjugate, not orthogonal.
+/// Semi-axes of these lengths in a tilted plane, as two vectors at the angle t along the ellipse: conjugate, not
+/// orthogonal.
 template <class T>
 Ellipse<Vec<T>> skewed(T major, T minor, T t = T(0.7)) {
     const Vec<T> normal{T(2) / T(3), T(-1) / T(3), T(2) / T(3)};
@@ -128,7 +129,8 @@ TEST_CASE_TEMPLATE("BoundMajorRadius: bounds a footprint that is too long in all
     }
 }
 
-// A ray that grazes its receiver makes these: the squares of such lengths, and the squares of those, overflow before they do.
+// A ray that grazes its receiver makes these: the squares of such lengths, and the squares of those, overflow before
+// they do.
 TEST_CASE_TEMPLATE("BoundMajorRadius: bounds the longest footprints that there are", T, float, double) {
     for (const int power : std::is_same_v<T, float> ? std::array{20, 40, 60} : std::array{20, 100, 200}) {
         const T huge = std::ldexp(T(1), power);

@@ -24,8 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         argv.push_back(argument.c_str());
     try {
         const auto options = read_options(static_cast<int>(argv.size()), argv.data());
-        if (options && (options->photons == 0 || !(options->smoothing.value_or(1) > 0) || !std::isfinite(options->smoothing.value_or(1)) ||
-                        options->width == 0 || options->height == 0))
+        if (options && (options->photons == 0 || !(options->smoothing.value_or(1) > 0) ||
+                        !std::isfinite(options->smoothing.value_or(1)) || options->width == 0 || options->height == 0))
             std::abort();
     } catch (const UsageError&) {
         // refused, with a message

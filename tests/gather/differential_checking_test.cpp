@@ -108,16 +108,16 @@ TEST_CASE("differential checking: even light with photons at random is hardly ev
     CHECK(even.rms < 1.3 * even.rms_of_all);
 }
 
-// One photon in five carries 71% of the flux, and noise is that of 0.38 as many: intervals for their number itself would
-// be those of 1.5 deviations, which cut one place in four.
+// One photon in five carries 71% of the flux, and noise is that of 0.38 as many: intervals for their number itself
+// would be those of 1.5 deviations, which cut one place in four.
 TEST_CASE("differential checking: unequal fluxes are taken for the noise that they are") {
     const EvenLight even(200, 2000, 5, 132);
     CAPTURE(even.cut);
     CHECK(even.cut <= 12);
 }
 
-// A peak of 200 photons within r = 0.045, in light of 4: the estimate is (n − 1)/r², 4.5 with the 1800 within r = 20 and
-// 4.2 with 4000. That is 0.07 in logarithms, and the intervals are 0.06 and 0.04 to either side.
+// A peak of 200 photons within r = 0.045, in light of 4: the estimate is (n − 1)/r², 4.5 with the 1800 within r = 20
+// and 4.2 with 4000. That is 0.07 in logarithms, and the intervals are 0.06 and 0.04 to either side.
 TEST_CASE("differential checking: what is finer than the resolution is averaged") {
     const auto peak = [](double n) { return n <= 200 ? 1e5 : 4 * (n - 1) / (n - 200); };
     CHECK(checked(4000, {}, peak) <= 200);

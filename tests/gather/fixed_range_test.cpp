@@ -53,8 +53,9 @@ TEST_CASE_TEMPLATE("fixed range: takes any vector", T, float, double) {
         []<class V>() { check_by_brute_force(tests::mixed_photons<V>(200, 83), {.range = 0.2}, BiweightKernel{}); });
 }
 
-// A kernel of radius 8 spacings, added up over a lattice of places: the biweight's transform falls like the 7/2-th power,
-// so that the sum is the integral, the photons' flux, to 1e-4 (48 |J₃(ω)|/ω³ at ω = 16π: 5e-5, four of them).
+// A kernel of radius 8 spacings, added up over a lattice of places: the biweight's transform falls like the 7/2-th
+// power, so that the sum is the integral, the photons' flux, to 1e-4 (48 |J₃(ω)|/ω³ at ω = 16π: 5e-5, four of
+// them).
 TEST_CASE("fixed range: keeps the light's energy") {
     using V = glm::dvec3;
     std::vector<Stored<V>> photons;

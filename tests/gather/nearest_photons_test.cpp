@@ -108,8 +108,8 @@ TEST_CASE_TEMPLATE("nearest photons: one photon lights the disk of the range", T
     CHECK(ranged({T(0.8), T(0.5), 0}, up<V>()) == 0);
 }
 
-// As many in one place as are asked for: the radius is what the map's positions resolve, and the estimate is large but a
-// number. All in one place: there is no area anywhere.
+// As many in one place as are asked for: the radius is what the map's positions resolve, and the estimate is large but
+// a number. All in one place: there is no area anywhere.
 TEST_CASE_TEMPLATE("nearest photons: coincident photons give a large finite estimate", T, float, double) {
     using V = Vec<T>;
     std::vector<Stored<V>> photons(100, tests::on_floor<V>(0.25, 0.5, 1));
@@ -126,8 +126,8 @@ TEST_CASE_TEMPLATE("nearest photons: coincident photons give a large finite esti
     CHECK(double(e) == doctest::Approx(20 * 3 / std::numbers::pi / (radius * radius)).epsilon(1e-5));
 }
 
-// In the middle of a square of photons: k − 1 of the k nearest count, whichever of those on the rim is the k-th. At r²/R² =
-// 1/8 the Epanechnikov kernel is 2/π · 7/8.
+// In the middle of a square of photons: k − 1 of the k nearest count, whichever of those on the rim is the k-th. At
+// r²/R² = 1/8 the Epanechnikov kernel is 2/π · 7/8.
 TEST_CASE_TEMPLATE("nearest photons: of those at one distance all but one count", T, float, double) {
     using V = Vec<T>;
     std::vector<Stored<V>> photons;
@@ -149,8 +149,9 @@ TEST_CASE_TEMPLATE("nearest photons: of those at one distance all but one count"
           doctest::Approx(4 * 2 * (1 - 0.125) / disk).epsilon(16 * epsilon<T>));
 }
 
-// E[1/(π R²)] = ρ/(k − 1): with k = 5 an estimate that counted the fifth would be a quarter too bright. An estimate's
-// standard deviation is below 1.3 for k = 5; of 3600, each from other photons: 0.022 of the mean. Four of them.
+// E[1/(π R²)] = ρ/(k − 1): with k = 5 an estimate that counted the fifth would be a quarter too bright. An
+// estimate's standard deviation is below 1.3 for k = 5; of 3600, each from other photons: 0.022 of the mean. Four of
+// them.
 TEST_CASE("nearest photons: for photons at random the mean estimate is the irradiance with any kernel") {
     using V = glm::dvec3;
     const auto check = [](auto kernel) {

@@ -8,8 +8,8 @@
 #include "nephroid/emission/light/directional.hpp"
 #include "nephroid/sequence/random.hpp"
 
-#include "support/brute_force.hpp"
 #include "gather/stored_photons.hpp"
+#include "support/brute_force.hpp"
 #include "support/foreign_vectors.hpp"
 #include "transport/tiny_scenes.hpp"
 
@@ -87,8 +87,8 @@ TEST_CASE("progressive: takes any vector") {
     tests::for_each_vector<double>([]<class V>() { check_by_brute_force<V>(); });
 }
 
-// Even light: without bias, and with noise that falls. n photons counted are α of those met, and each met weighs as much
-// as it did in its own pass, so the relative deviation stays below 1/sqrt(n); a fifth of the vertices face down.
+// Even light: without bias, and with noise that falls. n photons counted are α of those met, and each met weighs as
+// much as it did in its own pass, so the relative deviation stays below 1/sqrt(n); a fifth of the vertices face down.
 TEST_CASE("progressive: the noise falls from pass to pass while the radius shrinks") {
     using V = glm::dvec3;
     const auto vertices = grid<V>(12);
@@ -154,8 +154,8 @@ TEST_CASE("shrinking radius: follows Knaus and Zwicker's product") {
     }
 }
 
-// A mean of passes with radii that shrink: 64 passes of 500 photons each, r² down to a quarter. Each pass's estimate has a
-// relative variance of 9/5 over the photons in its disk, N π r² of them.
+// A mean of passes with radii that shrink: 64 passes of 500 photons each, r² down to a quarter. Each pass's estimate
+// has a relative variance of 9/5 over the photons in its disk, N π r² of them.
 TEST_CASE("shrinking radius: the mean of fixed ranges of all passes is the irradiance") {
     using V = glm::dvec3;
     ShrinkingRadius radius({.radius = 0.12});
@@ -171,8 +171,8 @@ TEST_CASE("shrinking radius: the mean of fixed ranges of all passes is the irrad
     CHECK(4 * std::sqrt(variance) < 0.25);
 }
 
-// The splatted form: still water, passes of 1000 random photons whose smoothing shrinks. Each pass's estimate has a relative
-// variance of (9/5)/s², as s² photons cover a point (the pixel filter only makes that less).
+// The splatted form: still water, passes of 1000 random photons whose smoothing shrinks. Each pass's estimate has a
+// relative variance of (9/5)/s², as s² photons cover a point (the pixel filter only makes that less).
 TEST_CASE("shrinking radius: footprints with a smoothing that shrinks add up to the irradiance") {
     using V = tests::Vec<double>;
     const tests::SheetScene<double> water{

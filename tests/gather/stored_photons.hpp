@@ -92,8 +92,8 @@ template <class V, class F>
     return seen;
 }
 
-/// Σ Φ K(r²/R²)/R², and how far rounding may move it: coordinates are at most 1, so squares of distances are off by a few
-/// epsilon of R, relatively by epsilon/R; slopes of the kernels are below 4.
+/// Σ Φ K(r²/R²)/R², and how far rounding may move it: coordinates are at most 1, so squares of distances are off
+/// by a few epsilon of R, relatively by epsilon/R; slopes of the kernels are below 4.
 struct Expected {
     double value = 0, tolerance = 0;
 };

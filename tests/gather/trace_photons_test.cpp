@@ -6,8 +6,8 @@
 #include "nephroid/emission/light/point.hpp"
 #include "nephroid/sequence/random.hpp"
 
-#include "support/brute_force.hpp"
 #include "gather/stored_photons.hpp"
+#include "support/brute_force.hpp"
 #include "transport/tiny_scenes.hpp"
 
 #include <doctest/doctest.h>

@@ -2,9 +2,9 @@
 /// @file  A renderer that fits, of which each file here breaks one part: as short as it can be.
 #pragma once
 
+#include "nephroid/caustics.hpp"
 #include "nephroid/emission/light/directional.hpp"
 #include "nephroid/sequence/halton.hpp"
-#include "nephroid/caustics.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Two kinds of numbers that paths are computed in, beside the library's: `Wide`, for references, and `Dual`, which
-///        carries its own derivatives, for condition numbers. Points over either.
+/// @file  Two kinds of numbers that paths are computed in, beside the library's: `Wide`, for references, and `Dual`,
+///        which carries its own derivatives, for condition numbers. Points over either.
 #pragma once
 
 #include "support/space.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The oracle: a path over a chain of surfaces, its derivatives by differences in wide precision, and how much they
-///        change when the numbers that define the problem do.
+/// @file  The oracle: a path over a chain of surfaces, its derivatives by differences in wide precision, and how much
+///        they change when the numbers that define the problem do.
 #pragma once
 
 #include "numerics/surface.hpp"
@@ -9,8 +9,8 @@
 
 namespace nephroid::tests::numerics {
 
-/// A photon and the surfaces that it meets, the receiver last. All numbers are of the precision that the library is tried
-/// in: they are the problem, without error.
+/// A photon and the surfaces that it meets, the receiver last. All numbers are of the precision that the library is
+/// tried in: they are the problem, without error.
 struct Chain {
     Point<double> position, direction;
     std::array<Point<double>, 2> d_position, d_direction; ///< the emission's tangents
@@ -143,7 +143,8 @@ struct Truth {
 
 /// Central differences of the whole path, twice extrapolated; what the last extrapolation changes estimates the error.
 [[nodiscard]] inline Truth differentiate(const Chain& chain) {
-    const Wide h = power_of_two(-38); // truncation (h/ρ)^6 is nothing down to ρ = 1e-8, rounding 2^-75 of the condition
+    // Truncation (h/ρ)^6 is nothing down to ρ = 1e-8, rounding 2^-75 of the condition.
+    const Wide h = power_of_two(-38);
     Truth truth{};
     Steady steady;
     for (std::size_t j = 0; j < 2; ++j) {

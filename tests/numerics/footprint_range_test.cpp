@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Footprints from 1e-20 to 1e20 in area with axis ratios to 1e12, against wide precision: radii, area, filter matrix,
-///        box, and what is splatted of them. Needle triangles.
+/// @file  Footprints from 1e-20 to 1e20 in area with axis ratios to 1e12, against wide precision: radii, area, filter
+///        matrix, box, and what is splatted of them. Needle triangles.
 #include "support/space.hpp"
 
 #include "nephroid/differential/curvature.hpp"
@@ -63,8 +63,8 @@ constexpr int count = 5000;
 
 } // namespace
 
-// The normal is rounded: it is off by a few epsilon, and with it what |a × b| has along it, not at all to first order where a
-// and b lie across it; they do to a rounding of the longer one, which is what skew stands for.
+// The normal is rounded: it is off by a few epsilon, and with it what |a × b| has along it, not at all to first order
+// where a and b lie across it; they do to a rounding of the longer one, which is what skew stands for.
 TEST_CASE_TEMPLATE("footprint range: area and radii hold from 1e-20 to 1e20 and to needles", T, float, double) {
     Draws draws(21);
     for (int i = 0; i < count; ++i) {
@@ -83,8 +83,9 @@ TEST_CASE_TEMPLATE("footprint range: area and radii hold from 1e-20 to 1e20 and 
     }
 }
 
-// M [a b] is the identity: its entries are triple products over the determinant. With u = epsilon / 2, a cross product is off
-// by 2 √2 u |a| |b| at most and the determinant by that and 3 u |a| |b|: 11 u skew together, with a few u for the scaling.
+// M [a b] is the identity: its entries are triple products over the determinant. With u = epsilon / 2, a cross product
+// is off by 2 √2 u |a| |b| at most and the determinant by that and 3 u |a| |b|: 11 u skew together, with a few u for
+// the scaling.
 TEST_CASE_TEMPLATE("footprint range: the filter matrix times the footprint is the identity", T, float, double) {
     Draws draws(22);
     int tried = 0;
@@ -94,7 +95,8 @@ TEST_CASE_TEMPLATE("footprint range: the filter matrix times the footprint is th
             continue;
         const auto m = filter_matrix(c.ellipse);
         if (!all_finite(m.row_a) || !all_finite(m.row_b)) {
-            // Only where an entry, up to one over the minor radius, leaves the type's range: a splat then is `collapsed`.
+            // Only where an entry, up to one over the minor radius, leaves the type's range: a splat then is
+            // `collapsed`.
             CHECK(c.minor < 64 * double((std::numeric_limits<T>::min)()));
             continue;
         }
@@ -172,8 +174,9 @@ TEST_CASE_TEMPLATE("footprint range: a footprint beyond any scene is bounded to 
     CHECK(bounded > count / 4);
 }
 
-// A triangle as thin as a millionth of its length, anywhere: the change of its normal, against differences of the normal
-// interpolated in wide precision. Along the needle nothing is lost; across it the gradient is as large as it is thin.
+// A triangle as thin as a millionth of its length, anywhere: the change of its normal, against differences of the
+// normal interpolated in wide precision. Along the needle nothing is lost; across it the gradient is as large as it is
+// thin.
 TEST_CASE_TEMPLATE("needle triangles: the normal changes as its interpolation does", T, float, double) {
     Draws draws(26);
     for (int i = 0; i < 400; ++i) {

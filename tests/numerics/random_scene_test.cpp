@@ -6,9 +6,9 @@
 #include "common/scene.hpp"
 #include "support/space.hpp"
 
-#include "nephroid/sequence/random.hpp"
-#include "nephroid/emission/light/standard_lights.hpp"
 #include "nephroid/caustics.hpp"
+#include "nephroid/emission/light/standard_lights.hpp"
+#include "nephroid/sequence/random.hpp"
 
 #include <doctest/doctest.h>
 
@@ -34,7 +34,8 @@ using nephroid::tests::Draws;
 template <class T>
 using Vec = glm::vec<3, T>;
 
-// GCC keeps track of exceptions unless it is told not to; clang takes the liberty to raise them where no number is used.
+// GCC keeps track of exceptions unless it is told not to; clang takes the liberty to raise them where no number is
+// used.
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__FAST_MATH__)
 constexpr bool exceptions_are_kept = true;
 #else
@@ -281,7 +282,8 @@ private:
     ExampleScene<T> scene_;
 };
 
-/// What rounding may take from an account, relative: fluxes are weighted in T, and summed in double, a few sums a photon.
+/// What rounding may take from an account, relative: fluxes are weighted in T, and summed in double, a few sums a
+/// photon.
 template <class T>
 constexpr double account_rounding = 64 * double(std::numeric_limits<T>::epsilon()) +
                                     2 * photons_per_world* std::numeric_limits<double>::epsilon();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  A spawned ray starts on the side of the surface that it leaves to, by the exact equation of the surface and at any
-///        scale: on the shapes of the examples, and in a tracer of its own that knows no double and no shape.
+/// @file  A spawned ray starts on the side of the surface that it leaves to, by the exact equation of the surface and
+///        at any scale: on the shapes of the examples, and in a tracer of its own that knows no double and no shape.
 #include "numerics/arithmetic.hpp"
 
 #include "nephroid/transport/walk.hpp"
@@ -286,9 +286,10 @@ struct Halves {
 };
 } // namespace
 
-// The whole walk: on a mirror ball alone in space each photon is reflected once and is gone; through a glass ball it goes
-// in by one refraction and out by another, and nothing is met twice. What grazes the glass leaves it at the critical angle
-// to rounding, and may go round and round: only rays above 0.1 are let in, and only where a hit is known to 1e-5 of the ball.
+// The whole walk: on a mirror ball alone in space each photon is reflected once and is gone; through a glass ball it
+// goes in by one refraction and out by another, and nothing is met twice. What grazes the glass leaves it at the
+// critical angle to rounding, and may go round and round: only rays above 0.1 are let in, and only where a hit is known
+// to 1e-5 of the ball.
 TEST_CASE_TEMPLATE("self-intersection: photons meet a mirror ball once and a glass ball twice", T, float, double) {
     using examples::Scene;
     using M = examples::Material<T>;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Analytic surfaces, and where a ray meets them: written once, for every kind of number. Not a line of it is the
-///        library's, and nowhere is there a derivative of a normal.
+/// @file  Analytic surfaces, and where a ray meets them: written once, for every kind of number. Not a line of it is
+///        the library's, and nowhere is there a derivative of a normal.
 #pragma once
 
 #include "numerics/arithmetic.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The library's tangents against differences in wide precision, group by group of hard cases. `examples/numerics`
-///        prints the table.
+/// @file  The library's tangents against differences in wide precision, group by group of hard cases.
+///        `examples/numerics` prints the table.
 #include "numerics/group_table.hpp"
 
 #include "nephroid/footprint/policies.hpp"
@@ -27,9 +27,10 @@ std::string described(const Measured& m) {
     return text;
 }
 
-// The bar: 99.9% of cases within 100 units of condition × epsilon, none above 1000, every photon arrives, every number is
-// finite, and the oracle's own error does not count. Measured over 13,000 cases of each precision: 17 units at worst. A ray
-// that started beside its line, not further along it, cost 183, so the tests hold a tighter bar of their own, 25.
+// The bar: 99.9% of cases within 100 units of condition × epsilon, none above 1000, every photon arrives, every number
+// is finite, and the oracle's own error does not count. Measured over 13,000 cases of each precision: 17 units at
+// worst. A ray that started beside its line, not further along it, cost 183, so the tests hold a tighter bar of their
+// own, 25.
 template <class T>
 void require_bar(Group group) {
     if (!has_quadruple)
@@ -91,8 +92,8 @@ TEST_CASE_TEMPLATE("tangents: hold after a flight of a hundred thousand units", 
     require_bar<T>(Group::long_transfer);
 }
 
-// The oracle differentiates by differences in wide precision. Forward differentiation in double shares the surfaces, but
-// no derivative: it must agree to its own rounding, a few hundred times condition × epsilon at most.
+// The oracle differentiates by differences in wide precision. Forward differentiation in double shares the surfaces,
+// but no derivative: it must agree to its own rounding, a few hundred times condition × epsilon at most.
 TEST_CASE("oracle: agrees with forward differentiation") {
     for (const Group group : {Group::ordinary, Group::grazing_899, Group::near_fold, Group::small_radius}) {
         Generator<double> generator(group, 99);
@@ -113,9 +114,9 @@ TEST_CASE("oracle: agrees with forward differentiation") {
     }
 }
 
-// A flat mirror between a point light and a floor: the floor is lit from the mirror image, a fan of rays from height H, and
-// the spread across the plane of incidence is the distance flown. A concave ball that is lit from its centre sends all
-// light back: the tangents end where they began.
+// A flat mirror between a point light and a floor: the floor is lit from the mirror image, a fan of rays from height H,
+// and the spread across the plane of incidence is the distance flown. A concave ball that is lit from its centre sends
+// all light back: the tangents end where they began.
 TEST_CASE("oracle: knows the closed forms") {
     Chain mirror;
     mirror.position = {0, 0, 1};
@@ -162,8 +163,8 @@ TEST_CASE("oracle: a tangent that sticks out of the surface by a millionth is fa
     CHECK(caught == 100);
 }
 
-// Towards the critical angle the true derivative diverges like one over the refracted cosine, and the library follows it to
-// the last number that is refracted at all. From there on it says that nothing passes.
+// Towards the critical angle the true derivative diverges like one over the refracted cosine, and the library follows
+// it to the last number that is refracted at all. From there on it says that nothing passes.
 TEST_CASE_TEMPLATE("critical angle: the derivative diverges as the true one and never turns into nonsense", T, float,
                    double) {
     using V = glm::vec<3, T>;
@@ -183,7 +184,8 @@ TEST_CASE_TEMPLATE("critical angle: the derivative diverges as the true one and 
         ++passed;
         const V d = through->differentiate(V(-direction.z, 0, direction.x), V(0));
         CHECK(all_finite(d));
-        // In wide precision, of the rounded direction: dω' along the surface is η cos / c', and |dω'| over that of the bent ray.
+        // In wide precision, of the rounded direction: dω' along the surface is η cos / c', and |dω'| over that of
+        // the bent ray.
         const Wide x(direction.x), z(direction.z), unit = sqrt(x * x + z * z), s = x / unit, c = -z / unit;
         const Wide left = Wide(1) - Wide(eta) * Wide(eta) * s * s;
         const double relative_rounding = 16 * double(std::numeric_limits<T>::epsilon()); // of 1, on what is left
@@ -205,8 +207,8 @@ TEST_CASE_TEMPLATE("critical angle: the derivative diverges as the true one and 
     CHECK(refused >= 3);
 }
 
-// Where the footprint has outgrown the scene the default policy bounds it and says so, and nowhere else: judged against the
-// oracle's major radius, with as much slack as the bar leaves.
+// Where the footprint has outgrown the scene the default policy bounds it and says so, and nowhere else: judged against
+// the oracle's major radius, with as much slack as the bar leaves.
 TEST_CASE_TEMPLATE("footprints: those that diverge are bounded and counted and no others", T, float, double) {
     using V = glm::vec<3, T>;
     constexpr double epsilon = double(std::numeric_limits<T>::epsilon());

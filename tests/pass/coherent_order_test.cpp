@@ -142,9 +142,9 @@ TEST_CASE("coherent order: photons of a light that draws nothing stay in the ord
         CHECK(order[i] == i);
 }
 
-// Points of a stratified sequence lie 1/√n apart. Along the curve half of the steps go to the next cell in x, a quarter
-// one down and one back, an eighth to the cell after the last in x, and so on: 1.67 cells in the mean. In any order that
-// knows nothing of places the mean step is the mean distance of two points in the unit square, 0.52.
+// Points of a stratified sequence lie 1/√n apart. Along the curve half of the steps go to the next cell in x, a
+// quarter one down and one back, an eighth to the cell after the last in x, and so on: 1.67 cells in the mean. In any
+// order that knows nothing of places the mean step is the mean distance of two points in the unit square, 0.52.
 TEST_CASE("coherent order: photons that follow each other start close together") {
     constexpr std::size_t count = 4096;
     const auto mean_step = [&](const std::vector<std::uint32_t>& order) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// @file  One photon's emission and walk, with one feature of the library at a time: compiled by pay_for_what_you_use.sh, which
-///        counts instructions. Without a feature it is a planar mirror, a directional light and float flux.
+/// @file  One photon's emission and walk, with one feature of the library at a time: compiled by
+///        pay_for_what_you_use.sh, which counts instructions. Without a feature it is a planar mirror, a directional
+///        light and float flux.
 ///
-/// Every variant takes the same path through the same two planes: straight down onto the mirror (or glass) at 45 degrees, and
-/// on to the receiver. So what differs is what the feature costs.
+/// Every variant takes the same path through the same two planes: straight down onto the mirror (or glass) at 45
+/// degrees, and on to the receiver. So what differs is what the feature costs.
 #include <nephroid/emission/light/directional.hpp>
 #include <nephroid/sequence/halton.hpp>
 #include <nephroid/sequence/sequence.hpp>

@@ -109,8 +109,8 @@ TEST_CASE("PowerSpectrum: a grid has its points' number at multiples of its own 
     CHECK(std::isinf(decibels(0)));
 }
 
-// A hexagonal packing of spacing d has its reciprocal lattice's shortest vectors at 2/(√3 d), and N = 2/(√3 d²). With
-// rows that are 4/7 of √3/2 times as far apart as points in a row it is periodic but for 1%.
+// A hexagonal packing of spacing d has its reciprocal lattice's shortest vectors at 2/(√3 d), and N = 2/(√3 d²).
+// With rows that are 4/7 of √3/2 times as far apart as points in a row it is periodic but for 1%.
 TEST_CASE("PowerSpectrum: the first peak of a hexagonal packing lies at its principal frequency") {
     const int columns = 28, rows = 32;
     Points points;
@@ -167,8 +167,8 @@ TEST_CASE("PowerSpectrum: a Hann window keeps a cut from spreading the peaks") {
     PowerSpectrum white(40, SpectralWindow::hann);
     for (std::uint64_t set = 0; set < 8; ++set)
         white.add(random_points(400, 200 + set));
-    // Normalised by the squared weights' sum. Neighbours' amplitudes are correlated by 2/3, the next by 1/6, along either
-    // axis: the sum of the squares is 1.94² = 3.8, so four frequencies count as one.
+    // Normalised by the squared weights' sum. Neighbours' amplitudes are correlated by 2/3, the next by 1/6, along
+    // either axis: the sum of the squares is 1.94² = 3.8, so four frequencies count as one.
     CHECK(std::abs(white.band_power(3, 40) - 1) < 5 * std::sqrt(4 / (std::numbers::pi / 2 * 1600 * 8)));
 }
 

@@ -188,9 +188,9 @@ TEST_CASE("eye path map: says which vertex has a position or a normal that canno
     CHECK(with({0, {1, 2, 3}, {0, 0.6001f, 0.8002f}}) == "none");
 }
 
-// A room whose walls lie along the axes, the commonest scene there is: the points of a wall have no extent across it, and
-// a tree that halves boxes without looking at the points in them cuts walls into rags. Leaves that reach around an edge
-// mix two lattices: with 96 x 96 vertices a wall, fewer than a tenth.
+// A room whose walls lie along the axes, the commonest scene there is: the points of a wall have no extent across it,
+// and a tree that halves boxes without looking at the points in them cuts walls into rags. Leaves that reach around an
+// edge mix two lattices: with 96 x 96 vertices a wall, fewer than a tenth.
 TEST_CASE_TEMPLATE("eye path map: on the walls of a room the spacing is that of the lattice", T, float, double) {
     using V = glm::vec<3, T>;
     constexpr int n = 96;
@@ -237,8 +237,8 @@ TEST_CASE("eye path map: no normal is further from the middle of its leaf's than
     }
 }
 
-// A vertex at one end of a leaf is asked about through the leaf's middle, which is rounded: by as much as a millionth of
-// its distance from the origin, where the leaf itself may be smaller than that.
+// A vertex at one end of a leaf is asked about through the leaf's middle, which is rounded: by as much as a millionth
+// of its distance from the origin, where the leaf itself may be smaller than that.
 TEST_CASE_TEMPLATE("eye path map: no vertex lies outside of its leaf, far from the origin either", T, float, double) {
     using V = glm::vec<3, T>;
     struct Vertex {

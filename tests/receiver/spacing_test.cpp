@@ -43,7 +43,8 @@ constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
 
 } // namespace
 
-// With a side that is a power of two every squared distance is exact, so is their sum, and 12 p² / 12: the root of p².
+// With a side that is a power of two every squared distance is exact, so is their sum, and 12 p² / 12: the root of
+// p².
 TEST_CASE_TEMPLATE("point spacing: of a square lattice is its side", T, float, double) {
     for (const auto& size : {std::pair{8, 8}, {4, 8}, {5, 5}, {7, 4}, {6, 6}, {4, 4}})
         for (const double side : {1.0, 0.25, 1024.0}) {
@@ -75,9 +76,10 @@ TEST_CASE("point spacing: of a stretched lattice is between its two sides") {
     CHECK(std::abs(lattice<double>(9, 9, 1, 2).spacing() - std::sqrt(28.0 / 12)) <= 1e-12);
 }
 
-// The four in the middle of an 8 x 8 lattice are asked, and their median counts. With a neighbour gone, one of them says
-// (12 − 2 + 4) / 12 and three say 1. With a stray at (−0.1, −0.1) from it, in the place of a neighbour at √2, it says
-// (12 − 2 + 0.02) / 12, the two next to it, with the stray at √1.22, (12 − 2 + 1.22) / 12, and the fourth 1.
+// The four in the middle of an 8 x 8 lattice are asked, and their median counts. With a neighbour gone, one of them
+// says (12 − 2 + 4) / 12 and three say 1. With a stray at (−0.1, −0.1) from it, in the place of a neighbour at
+// √2, it says (12 − 2 + 0.02) / 12, the two next to it, with the stray at √1.22, (12 − 2 + 1.22) / 12, and the
+// fourth 1.
 TEST_CASE_TEMPLATE("point spacing: a hole or a stray beside the middle is outvoted", T, float, double) {
     const auto without = [](double x, double y) {
         Points<T> points;
@@ -93,9 +95,9 @@ TEST_CASE_TEMPLATE("point spacing: a hole or a stray beside the middle is outvot
     CHECK(std::abs(stray.spacing() - std::sqrt(11.22 / 12)) <= 8 * epsilon<T>);
 }
 
-// The k-th nearest of randomly strewn points of density 1 has the mean squared distance k/π: 36/π over 12 is 0.977². The
-// root of an average is below the average's root, and the median below the mean: the documented 0.95. Of 400 clouds the
-// mean varies by about 0.2/sqrt(400) = 0.01: four of these.
+// The k-th nearest of randomly strewn points of density 1 has the mean squared distance k/π: 36/π over 12 is 0.977².
+// The root of an average is below the average's root, and the median below the mean: the documented 0.95. Of 400 clouds
+// the mean varies by about 0.2/sqrt(400) = 0.01: four of these.
 TEST_CASE_TEMPLATE("point spacing: of random points is 0.95 over the root of their density", T, float, double) {
     Draws draw(42);
     double sum = 0;

@@ -140,8 +140,8 @@ TEST_CASE("most likely: the border of what is lit is the strongest of edges") {
     }
 }
 
-// Photons of one density: the evidence is the largest of about 2 · log(150) independent halves of χ²(1), which exceeds
-// 8 with a chance below 10 · erfc(√8) = 6e-4; of 400 at most 4 by chance.
+// Photons of one density: the evidence is the largest of about 2 · log(150) independent halves of χ²(1), which
+// exceeds 8 with a chance below 10 · erfc(√8) = 6e-4; of 400 at most 4 by chance.
 TEST_CASE("most likely: chance alone is hardly ever taken for an edge and least spread is often misled") {
     Draws draw(25);
     int likely = 0, spread = 0;

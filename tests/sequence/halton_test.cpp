@@ -117,9 +117,7 @@ void check_permutation() {
 }
 } // namespace
 
-TEST_CASE("HaltonSequence: is a sequence") {
-    tests::check_sequence_laws<HaltonSequence>(20);
-}
+TEST_CASE("HaltonSequence: is a sequence") { tests::check_sequence_laws<HaltonSequence>(20); }
 
 TEST_CASE("faure_permutation: the small ones are those that Faure published") {
     CHECK(faure_permutation<2>() == std::array<std::uint32_t, 2>{0, 1});

@@ -12,9 +12,7 @@
 
 using namespace nephroid;
 
-TEST_CASE("RandomSequence: is a sequence") {
-    tests::check_sequence_laws<RandomSequence>(20);
-}
+TEST_CASE("RandomSequence: is a sequence") { tests::check_sequence_laws<RandomSequence>(20); }
 
 // Chi squared with k - 1 degrees of freedom: mean k - 1, variance 2 (k - 1). Along the index, along the dimension and
 // along the seed, each with the other two fixed.

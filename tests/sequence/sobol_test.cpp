@@ -66,9 +66,7 @@ bool is_net(const SobolSequence& sequence, std::uint64_t first, std::uint32_t m)
 }
 } // namespace
 
-TEST_CASE("SobolSequence: is a sequence") {
-    tests::check_sequence_laws<SobolSequence>(20);
-}
+TEST_CASE("SobolSequence: is a sequence") { tests::check_sequence_laws<SobolSequence>(20); }
 
 // Joe and Kuo's notes list these for their generator, which goes through the indices in Gray code order.
 TEST_CASE("sobol_bits: the first points are the published ones") {

@@ -7,9 +7,9 @@
 #include "support/space.hpp"
 #include "transport/tiny_scenes.hpp"
 
-#include "nephroid/sequence/random.hpp"
-#include "nephroid/emission/light/standard_lights.hpp"
 #include "nephroid/caustics.hpp"
+#include "nephroid/emission/light/standard_lights.hpp"
+#include "nephroid/sequence/random.hpp"
 
 #include <doctest/doctest.h>
 
@@ -94,7 +94,8 @@ template <class L, class S, class Sequence = HaltonSequence, class E = SerialExe
 
 constexpr std::size_t many = 20000;
 
-/// Pictures of quarters whose noise falls as n^−β: what the two of each half differ by is 2^(β/2) times what the halves do.
+/// Pictures of quarters whose noise falls as n^−β: what the two of each half differ by is 2^(β/2) times what the
+/// halves do.
 [[nodiscard]] QuarterPictures noisy(double order) {
     Draws draw(3);
     QuarterPictures quarters;
@@ -157,8 +158,9 @@ struct Trial {
 
 } // namespace
 
-// Trials share the photons: the noise of the smooth ones is that of the sharp ones, damped. What is computed differs from
-// the true error by a constant and by sums of n products of noise with noise or bias, each at most 1 wide: 4 sqrt(n).
+// Trials share the photons: the noise of the smooth ones is that of the sharp ones, damped. What is computed differs
+// from the true error by a constant and by sums of n products of noise with noise or bias, each at most 1 wide: 4
+// sqrt(n).
 TEST_CASE("cross-validation: errors are those against the truth but for a constant") {
     const double tolerance = 4 * std::sqrt(double(many));
     for (const bool stratified : {false, true}) {

@@ -7,9 +7,9 @@
 #include "support/glass_ball.hpp"
 #include "transport/tiny_scenes.hpp"
 
-#include "nephroid/sequence/random.hpp"
-#include "nephroid/emission/light/standard_lights.hpp"
 #include "nephroid/caustics.hpp"
+#include "nephroid/emission/light/standard_lights.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/dual.hpp"
 
 #include <doctest/doctest.h>
@@ -304,7 +304,8 @@ TEST_CASE("second order: of several lights each keeps to its own photons") {
         difference2 += square(picture.irradiance[i] - apart);
         sum2 += square(apart);
     }
-    // Noise of two pictures, 1.8/s² relative variance each with s from 5: a relative 0.27 at most, less where light is.
+    // Noise of two pictures, 1.8/s² relative variance each with s from 5: a relative 0.27 at most, less where light
+    // is.
     CHECK(difference2 < square(std::sqrt(2 * 1.8) / 5) * sum2);
     check_balance(picture.account);
 }

@@ -245,8 +245,8 @@ TEST_CASE("photon splatter: a response weighs each photon by vertex and directio
     check_image(sums(splatter, vertices.size()), expected);
 }
 
-// Three bands do what three fluxes do: each is the same product and sum, bit for bit unless a compiler fuses some of them.
-// 100 photons round 100 times then.
+// Three bands do what three fluxes do: each is the same product and sum, bit for bit unless a compiler fuses some of
+// them. 100 photons round 100 times then.
 TEST_CASE("photon splatter: a colour is three numbers") {
     const auto vertices = room<float>();
     const auto map = map_of(vertices);
@@ -324,7 +324,8 @@ TEST_CASE("photon splatter: several threads give the same sums bit for bit") {
 }
 
 // More than 32,768 leaves, which then are in groups of more than four. Against the sums of one chunk after another.
-TEST_CASE("photon splatter: a map of many leaves is summed by several threads bit for bit" * doctest::skip(is_sanitized)) {
+TEST_CASE("photon splatter: a map of many leaves is summed by several threads bit for bit" *
+          doctest::skip(is_sanitized)) {
     using V = glm::vec3;
     constexpr std::size_t side = 1500;
     std::vector<Vertex<V>> vertices;

@@ -45,7 +45,8 @@ std::vector<Vertex<T>> bumps(Draws& draw, double height) {
 
 } // namespace
 
-// Every vertex of every leaf is asked by itself. Many leaves must be told to be out of reach, or the test shows nothing.
+// Every vertex of every leaf is asked by itself. Many leaves must be told to be out of reach, or the test shows
+// nothing.
 TEST_CASE_TEMPLATE("splat reach: no leaf is left out that has a vertex in the splat and no check that one fails", T,
                    float, double) {
     Draws draw(1);
@@ -84,9 +85,10 @@ TEST_CASE_TEMPLATE("splat reach: no leaf is left out that has a vertex in the sp
     CHECK(unchecked > 100);
 }
 
-// A needle's rows are as long as its width is small, so that at a vertex far along it terms of 3000 cancel to the 1 that
-// is compared: they round by a thousandth, elsewhere in a leaf otherwise than at its vertices. Each leaf here is two
-// vertices at the needle's border, a few roundings apart, and by what is computed for themselves some are just inside.
+// A needle's rows are as long as its width is small, so that at a vertex far along it terms of 3000 cancel to the 1
+// that is compared: they round by a thousandth, elsewhere in a leaf otherwise than at its vertices. Each leaf here is
+// two vertices at the needle's border, a few roundings apart, and by what is computed for themselves some are just
+// inside.
 TEST_CASE_TEMPLATE("splat reach: rounding along a needle leaves out no vertex", T, float, double) {
     using V = Vec<T>;
     constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
@@ -134,9 +136,10 @@ TEST_CASE_TEMPLATE("splat reach: rounding along a needle leaves out no vertex", 
     }
 }
 
-// A photon within a leaf, whose far end is one height away but for a few roundings: no terms cancel, and what is left is
-// the rounding of the leaf's own half.
-TEST_CASE_TEMPLATE("splat reach: rounding at the end of a leaf about the photon leaves out no vertex", T, float, double) {
+// A photon within a leaf, whose far end is one height away but for a few roundings: no terms cancel, and what is left
+// is the rounding of the leaf's own half.
+TEST_CASE_TEMPLATE("splat reach: rounding at the end of a leaf about the photon leaves out no vertex", T, float,
+                   double) {
     using V = Vec<T>;
     constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
     Draws draw(4);
@@ -203,8 +206,8 @@ TEST_CASE_TEMPLATE("splat reach: rounding of normals at right angles to the phot
     CHECK(facing < 30000);
 }
 
-// Two walls of a corner: a photon on one has nothing to do with the other, and where it shines along a flat leaf no vertex
-// of it is asked.
+// Two walls of a corner: a photon on one has nothing to do with the other, and where it shines along a flat leaf no
+// vertex of it is asked.
 TEST_CASE("splat reach: a flat leaf that lies along the photon's normal is not met") {
     using V = glm::vec3;
     std::vector<Vertex<float>> wall;

@@ -53,10 +53,10 @@ double flux_of(const Splat<V, F>& splat) {
     return double(splat.peak) / std::abs(double(dot(splat.normal, cross(splat.row_a, splat.row_b))));
 }
 
-/// Bound on what sampling a biweight splat at a lattice may gain or lose, of its flux: by Poisson's summation formula the
-/// sum of its Fourier transform, 48 |J₃(ω)| / ω³, over the lattice's frequencies, ω² = (2π/p)² kᵀ C k. The mean over m x m
-/// evenly shifted positions has only every m-th of these. |J₃(ω)| is below 0.4344 and below sqrt(2/π) (ω² − 35/4)^(−1/4)
-/// [Krasikov 2006].
+/// Bound on what sampling a biweight splat at a lattice may gain or lose, of its flux: by Poisson's summation formula
+/// the sum of its Fourier transform, 48 |J₃(ω)| / ω³, over the lattice's frequencies, ω² = (2π/p)² kᵀ C k.
+/// The mean over m x m evenly shifted positions has only every m-th of these. |J₃(ω)| is below 0.4344 and
+/// below sqrt(2/π) (ω² − 35/4)^(−1/4) [Krasikov 2006].
 double sampling_error(const Covariance& c, double p, int m) {
     const double pi = std::numbers::pi;
     const auto transform = [&](double w) {
@@ -240,8 +240,8 @@ TEST_CASE_TEMPLATE("splat: what the policies discard says so", T, float, double)
     CHECK(make_splat(needle, map, discard).fate == Fate::splatted);
 }
 
-// The irradiance of all but nothing of an area is a number too large to be one: infinity times the kernel's zero outside
-// is NaN, and would be added to every vertex of a leaf.
+// The irradiance of all but nothing of an area is a number too large to be one: infinity times the kernel's zero
+// outside is NaN, and would be added to every vertex of a leaf.
 TEST_CASE_TEMPLATE("splat: a footprint too small for its flux has collapsed", T, float, double) {
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);

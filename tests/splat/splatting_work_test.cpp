@@ -96,16 +96,16 @@ TEST_CASE("splatting work: no vertex receives a photon twice") {
             ++lit;
             CHECK(std::abs(sum * once - 1) < 1e-5);
         });
-        // As many lattice points lie in a disk as its area holds, but for some of those on its border, less than two for
-        // every spacing of it.
+        // As many lattice points lie in a disk as its area holds, but for some of those on its border, less than two
+        // for every spacing of it.
         const double expected = std::numbers::pi * square(double(radius) / spacing);
         CHECK(std::abs(double(lit) - expected) < 4 * std::numbers::pi * double(radius) / spacing);
     }
 }
 
-// Area times density is what has to be done. Leaves of n <= 64 vertices of a lattice, split across their longest side, have
-// sides of 4 to 16 spacings; on the average their number that a disk of radius r meets follows from its box, grown by the
-// side of a leaf: so many vertices more than lie in the disk are looked at, and no others.
+// Area times density is what has to be done. Leaves of n <= 64 vertices of a lattice, split across their longest side,
+// have sides of 4 to 16 spacings; on the average their number that a disk of radius r meets follows from its box, grown
+// by the side of a leaf: so many vertices more than lie in the disk are looked at, and no others.
 TEST_CASE("splatting work: the kernel is evaluated area times density and a leaf's margin times") {
     const auto vertices = lattice();
     const EyePathMap map(vertices, &Vertex::position, &Vertex::normal);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Splatting by its definition: every photon at every vertex, in double, by covariances instead of matrices. Shares
-///        no formula with the library.
+/// @file  Splatting by its definition: every photon at every vertex, in double, by covariances instead of matrices.
+///        Shares no formula with the library.
 #pragma once
 
 #include "nephroid/transport/walk.hpp"
@@ -71,8 +71,9 @@ struct Received {
     double tolerance = 0;
 };
 
-/// π K(|M (x − x_p)|) Φ / A at every vertex [Frisvad et al. 2014, eq. 10 to 12]: nothing further than `normal_distance`
-/// minor radii, and than the spacing, from the tangent plane, and nothing at a vertex that faces the other way.
+/// π K(|M (x − x_p)|) Φ / A at every vertex [Frisvad et al. 2014, eq. 10 to 12]: nothing further than
+/// `normal_distance` minor radii, and than the spacing, from the tangent plane, and nothing at a vertex that faces the
+/// other way.
 ///
 /// @param kernel     of a squared radius, in double, with slopes up to `steepest` of its peak
 /// @param filter     the radius of the disk that the pixel filter adds, world units; 0 for none
@@ -85,8 +86,8 @@ void receive(std::vector<Received>& image, const std::vector<Vertex<V>>& vertice
     const double thickness = (std::max)(normal_distance * c.minor(), spacing);
     const double peak = flux / std::sqrt(c.determinant());
     const glm::dvec3 n(deposit.normal), centre(deposit.position);
-    // M (x − x_p) is a difference of terms of up to major / minor each; its square is off by twice that, K by its slope,
-    // and the peak by a few roundings. On the edge of the disk and of the slab either side may be right.
+    // M (x − x_p) is a difference of terms of up to major / minor each; its square is off by twice that, K by its
+    // slope, and the peak by a few roundings. On the edge of the disk and of the slab either side may be right.
     const double doubt = 64 * epsilon * c.major() / c.minor();
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const glm::dvec3 d = glm::dvec3(vertices[i].position) - centre, m(vertices[i].normal);

@@ -22,7 +22,8 @@ struct Plain {
     T x, y, z;
 };
 
-/// How often a type's own operators were called: + and − of two, unary −, scalar times vector, and element-wise times.
+/// How often a type's own operators were called: + and − of two, unary −, scalar times vector, and element-wise
+/// times.
 struct Calls {
     int plus = 0, minus = 0, negate = 0, scale = 0, elementwise = 0;
 };

@@ -2,9 +2,9 @@
 /// @file  A glass ball over a floor in any vector type and any scalar: a whole caustic, small enough for a test.
 #pragma once
 
+#include "nephroid/caustics.hpp"
 #include "nephroid/emission/light/directional.hpp"
 #include "nephroid/sequence/halton.hpp"
-#include "nephroid/caustics.hpp"
 
 #include <optional>
 #include <vector>

@@ -98,7 +98,8 @@ template <class F>
 }
 
 /// Bound on the error of `derivative`, per unit of |f|, for f analytic in |p| < radius: the extrapolation leaves h^4
-/// f⁗'/(4 · 5!) <= (h / radius)^4 / radius by Cauchy's estimate, rounding 64 operations of epsilon, times 4/h · 4/3.
+/// f⁗'/(4 · 5!) <= (h / radius)^4 / radius by Cauchy's estimate, rounding 64 operations of epsilon, times 4/h ·
+/// 4/3.
 [[nodiscard]] inline double derivative_error(double radius) {
     const double h = static_cast<double>(difference_step());
     return std::pow(h / radius, 4) / radius + 64 * power_of_two(1 - Wide::digits) * 6 / h;

@@ -79,9 +79,9 @@ TEST_CASE("fates: have as many names as there are and each its own") {
     CHECK(fate_names[std::size_t(Fate::invalid)] == std::string("invalid"));
 }
 
-// A plain sum of ten million tenths is off by 1e-10 of it, as its additions err alike for as long as the sum stays within a
-// power of two; what is left to a compensated one is a rounding of each of its 1000 parts and of the result. Ten million
-// times the double nearest to 0.1 has 53 + 24 bits: the product is rounded once.
+// A plain sum of ten million tenths is off by 1e-10 of it, as its additions err alike for as long as the sum stays
+// within a power of two; what is left to a compensated one is a rounding of each of its 1000 parts and of the result.
+// Ten million times the double nearest to 0.1 has 53 + 24 bits: the product is rounded once.
 TEST_CASE("statistics: millions of photons lose no flux to rounding") {
     const double each = 0.1, rounding = std::numeric_limits<double>::epsilon();
     const int chunks = 1000, per_chunk = 10'000;

@@ -65,8 +65,8 @@ TEST_CASE_TEMPLATE("walk: a shading normal that sends light through a mirror is 
     }
 }
 
-// Out of glass at a low angle, and the shading normal all but faces the ray: refracted about it, the ray would go up, on the
-// side that it came from. About the true normal it is reflected totally.
+// Out of glass at a low angle, and the shading normal all but faces the ray: refracted about it, the ray would go up,
+// on the side that it came from. About the true normal it is reflected totally.
 TEST_CASE_TEMPLATE("walk: a shading normal that throws refracted light back is corrected and counted", T, float,
                    double) {
     const BentMirror<T> scene{
@@ -84,8 +84,8 @@ TEST_CASE_TEMPLATE("walk: a shading normal that keeps refracted light outside is
                    double) {
     BentMirror<T> scene{
         {{{{0, 0, 0}, {0, 0, 1}, Event::refract, T(1), T(1.5), 1}, {{0, 0, -2}, {0, 0, 1}, Event::deposit}}}};
-    // Out of glass, 34 degrees to the surface's normal but 9 to the shading one, which bends the ray up by little; and one
-    // that the photon is behind.
+    // Out of glass, 34 degrees to the surface's normal but 9 to the shading one, which bends the ray up by little; and
+    // one that the photon is behind.
     scene.shading = normalize(Vec<T>{T(0.9), 0, T(0.1)});
     const Vec<T> d = normalize(Vec<T>{T(0.5), 0, T(-1)});
     Statistics account;
@@ -95,8 +95,8 @@ TEST_CASE_TEMPLATE("walk: a shading normal that keeps refracted light outside is
     check_close(deposit->direction, Vec<T>{T(1.5) * d.x, 0, -std::sqrt(1 - T(2.25) * d.x * d.x)}, 16 * epsilon<T>);
 }
 
-// A concave mirror of radius R about the origin, from inside at normal incidence: a parallel beam's tangent dx turns into
-// dω = −2 dx / R. Outward normals and inward ones say the same surface: the walk flips dn with n.
+// A concave mirror of radius R about the origin, from inside at normal incidence: a parallel beam's tangent dx turns
+// into dω = −2 dx / R. Outward normals and inward ones say the same surface: the walk flips dn with n.
 TEST_CASE_TEMPLATE("walk: a curved mirror focuses alike whichever way its normals point", T, float, double) {
     struct Bowl {
         T side;
@@ -188,8 +188,8 @@ TEST_CASE_TEMPLATE("walk: a ray leaves its surface far from the origin and at lo
     }
 }
 
-// A surface that is known to a hundredth only, met steeply: the ray starts that far along its own line, and its tangents are
-// those of the whole way. As in the first test, but for the rounding of the longer start.
+// A surface that is known to a hundredth only, met steeply: the ray starts that far along its own line, and its
+// tangents are those of the whole way. As in the first test, but for the rounding of the longer start.
 TEST_CASE_TEMPLATE("walk: a ray that starts off its surface still has flown the whole way", T, float, double) {
     struct Rough : SheetScene<T> {
         std::optional<SurfaceHit<Vec<T>, Flat>> intersect(const Vec<T>& o, const Vec<T>& d, T t_min, T t_max) const {
@@ -238,7 +238,8 @@ TEST_CASE_TEMPLATE("walk: a corrected reflection differentiates about the normal
     const auto deposit = follow(Corrected{}, photon, account);
     REQUIRE(deposit);
     REQUIRE(account.corrected_normals == 1);
-    // dx is in the mirror's plane already; dn = (0.3, 0.1, 0) and (0.2, −0.4, 0); dω' = −2 [(ω·dn) n + (ω·n) dn].
+    // dx is in the mirror's plane already; dn = (0.3, 0.1, 0) and (0.2, −0.4, 0); dω' = −2 [(ω·dn) n + (ω·n)
+    // dn].
     const Vec<T> up{d.x, 0, -d.z};
     for (std::size_t i = 0; i < 2; ++i) {
         const Vec<T> dn = i == 0 ? Vec<T>{T(0.3), T(0.1), 0} : Vec<T>{T(0.2), T(-0.4), 0};

@@ -23,8 +23,9 @@ using tests::Sheet;
 using tests::SheetScene;
 using tests::Vec;
 
-// The mirror image of the point (x, y, h) is (x, y, −h): from there the ray flies D = (h + 2) / cos to the ceiling, and its
-// tangents are D (dω − d (n·dω) / (n·d)) with dω mirrored in z. Three transfers of numbers below 10: 64 roundings of them.
+// The mirror image of the point (x, y, h) is (x, y, −h): from there the ray flies D = (h + 2) / cos to the ceiling,
+// and its tangents are D (dω − d (n·dω) / (n·d)) with dω mirrored in z. Three transfers of numbers below 10: 64
+// roundings of them.
 TEST_CASE_TEMPLATE("walk: a photon by way of a mirror lands where its image shines", T, float, double) {
     const T h = 1.5;
     const auto photon = from_point<T>({T(0.25), -1, h}, {1, T(0.5), -2}, T(0.75));
@@ -54,7 +55,8 @@ TEST_CASE_TEMPLATE("walk: a photon by way of a mirror lands where its image shin
 }
 
 // A slab of thickness t shifts a ray and leaves its direction: on a floor h below, a point source h above it lights the
-// circle of radius r(a) = 2 h tan a + t tan a', sin a' = sin a / n, with dr/da = 2 h / cos² a + t cos a / (n cos³ a').
+// circle of radius r(a) = 2 h tan a + t tan a', sin a' = sin a / n, with dr/da = 2 h / cos² a + t cos a / (n cos³
+// a').
 TEST_CASE_TEMPLATE("walk: a slab of glass shifts a ray and its tangents are those of Snell's law", T, float, double) {
     const double h = 1, t = 0.5, n = 1.5;
     SheetScene<T> scene{{{{0, 0, T(t)}, {0, 0, 1}, Event::refract, T(0.9), 1, T(n)},
@@ -72,7 +74,8 @@ TEST_CASE_TEMPLATE("walk: a slab of glass shifts a ray and its tangents are thos
         REQUIRE(deposit);
         const double s1 = s / n, c1 = std::sqrt(1 - s1 * s1);
         const double r = 2 * h * s / c + t * s1 / c1, dr = 2 * h / (c * c) + t * c / (n * c1 * c1 * c1);
-        // A turn by dφ about the axis moves the direction by sin a dφ and the point by r dφ: r / sin a for a unit one.
+        // A turn by dφ about the axis moves the direction by sin a dφ and the point by r dφ: r / sin a for a unit
+        // one.
         const double around = 2 * h / c + t / (n * c1);
         const double tolerance = 256 * epsilon<T> * dr; // which the rounding of d at the steepest angle is amplified by
         check_close(deposit->position, Vec<T>{T(r), 0, T(-h)}, tolerance);

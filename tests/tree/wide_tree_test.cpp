@@ -111,8 +111,8 @@ TEST_CASE("wide tree: without nodes has no leaves") {
     wide.visit_leaves({}, Box<double>{{-1, -1, -1}, {1, 1, 1}}, [](std::uint32_t) { FAIL("a leaf"); });
 }
 
-// Halves of more than twelve leaves' points are parted in the middle, which leaves more than six leaves' points to be divided
-// evenly among as few leaves as can hold them: at worst seven, six sevenths full.
+// Halves of more than twelve leaves' points are parted in the middle, which leaves more than six leaves' points to be
+// divided evenly among as few leaves as can hold them: at worst seven, six sevenths full.
 TEST_CASE("tree builder: leaves hold most of what they can") {
     Draws draw(31);
     detail::PointCloud<float> cloud;

@@ -120,8 +120,8 @@ TEST_CASE_TEMPLATE("operators: traits that say native_operators take the library
     CHECK(calls.scale == 1);
 }
 
-// a and b differ in the last digits: the exact product is about epsilon², and a plain a b − c d would be all rounding.
-// Each component: 2 epsilon relative (stable_test.cpp). Wide has no such care, and needs none here.
+// a and b differ in the last digits: the exact product is about epsilon², and a plain a b − c d would be all
+// rounding. Each component: 2 epsilon relative (stable_test.cpp). Wide has no such care, and needs none here.
 TEST_CASE_TEMPLATE("cross: keeps its digits for nearly parallel vectors", T, float, double) {
     nephroid::tests::for_each_vector<T>([]<class V>() {
         const T e = std::numeric_limits<T>::epsilon();

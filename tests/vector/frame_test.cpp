@@ -17,8 +17,8 @@ using tests::Wide;
 namespace {
 
 // Each component is a sum of at most two terms of size <= 1 after up to four roundings, so off by 5/2 epsilon at most,
-// and n's own length by 2 epsilon, which the terms x² a, y² a inherit. A product of two such vectors doubles that, over
-// three components (sqrt 3 each): 2 · sqrt(3) · (5/2 + 2) < 16.
+// and n's own length by 2 epsilon, which the terms x² a, y² a inherit. A product of two such vectors doubles that,
+// over three components (sqrt 3 each): 2 · sqrt(3) · (5/2 + 2) < 16.
 template <class V>
 void check_frame(const V& n) {
     using T = scalar_t<V>;
@@ -73,8 +73,8 @@ TEST_CASE_TEMPLATE("frame_about: keeps its digits all the way to minus z", T, fl
     }
 }
 
-// About ±z the frame is (x, ±y), and its rows differ from that by at most sin a + sin² a for a direction at the angle
-// a.
+// About ±z the frame is (x, ±y), and its rows differ from that by at most sin a + sin² a for a direction at the
+// angle a.
 TEST_CASE_TEMPLATE("frame_about: turns little when a direction near the axis turns little", T, float, double) {
     using V = foreign::Plain<T>;
     for (const T side : {T(1), T(-1)}) {

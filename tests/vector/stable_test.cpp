@@ -17,8 +17,8 @@ namespace {
 #if defined(__SIZEOF_FLOAT128__) // else the reference cannot hold a product of two doubles
 // Half an epsilon u per rounding. double, by fma or by Dekker: the products' difference, the difference of their errors
 // and the sum round once each, and the first two are exact where the products cancel: 3 u at most. float: exact but for
-// the rounding of double and the one to float, (1 + 2^-29) u. 2 epsilon covers both, and a plain a b − c d misses it by
-// up to the inverse of what is left.
+// the rounding of double and the one to float, (1 + 2^-29) u. 2 epsilon covers both, and a plain a b − c d misses it
+// by up to the inverse of what is left.
 template <class T>
 void check_difference_of_products(T a, T b, T c, T d) {
     CAPTURE(a);
@@ -52,7 +52,8 @@ TEST_CASE_TEMPLATE("difference_of_products: is accurate when all but the last di
 }
 #endif
 
-// Cassini: F(n−1) F(n+1) − F(n)^2 = (−1)^n. The products differ in their last of up to 48 (float) or 106 (double) bits.
+// Cassini: F(n−1) F(n+1) − F(n)^2 = (−1)^n. The products differ in their last of up to 48 (float) or 106 (double)
+// bits.
 TEST_CASE_TEMPLATE("difference_of_products: finds the one that Fibonacci numbers leave", T, float, double) {
     const int last = std::is_same_v<T, float> ? 35 : 77; // F(36) < 2^24, F(78) < 2^53
     std::int64_t before = 0, current = 1;                // F(0), F(1)

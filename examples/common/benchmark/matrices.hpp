@@ -45,8 +45,8 @@ template <class T>
     return inverse;
 }
 
-/// Inverts every ellipse's matrix for itself, as photons come: the processor works at several of them. All of a result is
-/// written down, so that the compiler cannot leave the row out that is not needed.
+/// Inverts every ellipse's matrix for itself, as photons come: the processor works at several of them. All of a result
+/// is written down, so that the compiler cannot leave the row out that is not needed.
 template <class V, class Invert>
 class EachAlone {
 public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Times taken by Google Benchmark, in turn, so that a busy machine slows all of them alike; or instructions counted
-///        by Valgrind, which no neighbour changes.
+/// @file  Times taken by Google Benchmark, in turn, so that a busy machine slows all of them alike; or instructions
+///        counted by Valgrind, which no neighbour changes.
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Photons from the lamp to the map: what order and tangents cost, whole passes, whole frames, two threads, growth.
+/// @file  Photons from the lamp to the map: what order and tangents cost, whole passes, whole frames, two threads,
+///        growth.
 #pragma once
 
 #include "common/benchmark/measure.hpp"
@@ -42,7 +43,8 @@ template <class S, class L>
     };
 }
 
-/// Traces 65,536 photons as a batch does, neighbours at the lamp one after the other, and in the order of their indices.
+/// Traces 65,536 photons as a batch does, neighbours at the lamp one after the other, and in the order of their
+/// indices.
 template <class Sequence, class S>
 void benchmark_order_in(const Effort& effort, const std::string& name, const S& scene) {
     constexpr std::uint64_t photons = 1 << 16;
@@ -232,8 +234,8 @@ inline void benchmark_growth(const Effort& effort) {
         Stopwatch stopwatch;
         splat_caustics(water, sun(), splatter, {.count = std::uint64_t(photons), .smoothing = 8});
         const double seconds = stopwatch.lap();
-        // A footprint of smoothing s is a disk of diameter s/√N on the sheet, and as large on the floor on the average;
-        // the pixel filter adds √(2/3) of a pixel to its radius, in quadrature.
+        // A footprint of smoothing s is a disk of diameter s/√N on the sheet, and as large on the floor on the
+        // average; the pixel filter adds √(2/3) of a pixel to its radius, in quadrature.
         const double radius2 = 16 / photons + 2.0 / 3 / double(side * side);
         return Run{side, photons, photons * pi<double> * radius2 * double(side * side), seconds,
                    memory.bytes().value_or(0) / (1 << 20)};

@@ -51,8 +51,9 @@ Rendering render_builtin(const Options& options) {
     Stopwatch total, stopwatch;
     const Case builtin = builtin_case<float, float>(options.scene, options.fresnel).value();
     if (options.cross_validated && builtin.periodic)
-        throw UsageError("--smoothing: cross-validated would take the border of the wave's tile, which is not to be seen, "
-                         "for an edge of its caustic; choose s by hand");
+        throw UsageError(
+            "--smoothing: cross-validated would take the border of the wave's tile, which is not to be seen, "
+            "for an edge of its caustic; choose s by hand");
     const BuiltinFilm film = film_of(options, builtin.film);
     check(film);
     ThreadExecutor threads(options.threads);
@@ -70,8 +71,8 @@ Rendering render_builtin(const Options& options) {
     const auto add = [&](std::size_t vertex, float e) {
         irradiance[vertices[vertex].pixel] += e / static_cast<float>(options.samples);
     };
-    splat_caustics_timed<float>(builtin.scene, builtin.light, map, walk_limits(film), options, builtin.periodic, threads,
-                                report, add);
+    splat_caustics_timed<float>(builtin.scene, builtin.light, map, walk_limits(film), options, builtin.periodic,
+                                threads, report, add);
     report.seconds.total = total.lap();
 
     const auto exact = exact_picture(film, options.threads);

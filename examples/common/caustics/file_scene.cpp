@@ -36,9 +36,7 @@ void check(const GltfScene<float>& gltf, const Options& options) {
         fail("has no specular surface, so it has no caustic; add glass (KHR_materials_transmission) or a smooth metal");
 }
 
-[[nodiscard]] double luminance(const Color& color) {
-    return (double(color.x) + double(color.y) + double(color.z)) / 3;
-}
+[[nodiscard]] double luminance(const Color& color) { return (double(color.x) + double(color.y) + double(color.z)) / 3; }
 
 /// The exposure at which nine in ten of the pixels that are not black are below 0.7: caustics may shine, not the walls.
 [[nodiscard]] double exposure_of(const std::vector<Color>& pixels) {

@@ -58,13 +58,15 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     app.add_option("--photons", photons, "Caustic photons wanted [20000]; a pilot pass finds how many to emit");
     app.add_option("--emit", emit, "Photons to emit, instead of --photons");
     std::string smoothing = "auto";
-    app.add_option("--smoothing", smoothing,
-                   "auto, or s: the footprints cover the light's domain s^2 times [auto; 8 with --first-order], or with "
-                   "--first-order cross-validated: the s at which parts of the photons agree best");
+    app.add_option(
+        "--smoothing", smoothing,
+        "auto, or s: the footprints cover the light's domain s^2 times [auto; 8 with --first-order], or with "
+        "--first-order cross-validated: the s at which parts of the photons agree best");
     app.add_flag("--first-order", options.first_order,
                  "Splat photons where they land, as Frisvad et al. 2014 do; else where their bias cancels");
     app.add_flag("--curved", options.curved, "Splat in pieces where the light bends: for few photons on sharp folds");
-    app.add_option("--size", size, "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
+    app.add_option("--size", size,
+                   "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
     app.add_option("--samples", options.samples, "Eye paths per pixel [1]");
     std::string kernel = "biweight", sequence = "halton", filter = "on", fresnel = "off", reflection = "any";
     std::string layer = "all", output, json, reference;

@@ -17,28 +17,28 @@ enum class KernelKind { biweight, epanechnikov, cone, uniform, gaussian };
 enum class Layer { all, caustics, direct };
 
 struct Options {
-    std::string scene;                                ///< the name of a built-in case or a .glb or .gltf file
-    std::uint64_t photons = 20'000;                   ///< caustic photons wanted
-    std::optional<std::uint64_t> emit;                ///< photons to emit, instead
-    std::optional<double> smoothing;                  ///< s; nothing: chosen for each photon
-    bool cross_validated = false;                     ///< s is chosen for all photons together, to first order
-    bool first_order = false;                         ///< photon differential splatting as published
-    bool curved = false;                              ///< footprints in pieces that bend as the light does
-    std::size_t width = 512, height = 512;            ///< pixels
-    bool height_given = false;                        ///< else a file's camera chooses it
-    unsigned samples = 1;                             ///< eye paths per pixel
+    std::string scene;                     ///< the name of a built-in case or a .glb or .gltf file
+    std::uint64_t photons = 20'000;        ///< caustic photons wanted
+    std::optional<std::uint64_t> emit;     ///< photons to emit, instead
+    std::optional<double> smoothing;       ///< s; nothing: chosen for each photon
+    bool cross_validated = false;          ///< s is chosen for all photons together, to first order
+    bool first_order = false;              ///< photon differential splatting as published
+    bool curved = false;                   ///< footprints in pieces that bend as the light does
+    std::size_t width = 512, height = 512; ///< pixels
+    bool height_given = false;             ///< else a file's camera chooses it
+    unsigned samples = 1;                  ///< eye paths per pixel
     KernelKind kernel = KernelKind::biweight;
     SequenceKind sequence = SequenceKind::halton;
     std::uint64_t seed = 0;
-    unsigned threads = 0;                             ///< 0: as many as the machine has
+    unsigned threads = 0; ///< 0: as many as the machine has
     bool pixel_filter = true;
-    bool fresnel = false;                             ///< of the built-in cases; materials of a file always have it
-    bool one_reflection = false;                      ///< of the ring: discard what would be reflected twice
-    std::optional<std::array<double, 4>> view;        ///< x_min, x_max, y_min, y_max of a built-in case's film
-    Layer layer = Layer::all;                         ///< of a file's picture
-    std::filesystem::path output;                     ///< the picture: .exr, .pfm or .png
-    std::optional<std::filesystem::path> json;        ///< the statistics
-    std::optional<std::filesystem::path> reference;   ///< a .pfm to compare the picture with
+    bool fresnel = false;                           ///< of the built-in cases; materials of a file always have it
+    bool one_reflection = false;                    ///< of the ring: discard what would be reflected twice
+    std::optional<std::array<double, 4>> view;      ///< x_min, x_max, y_min, y_max of a built-in case's film
+    Layer layer = Layer::all;                       ///< of a file's picture
+    std::filesystem::path output;                   ///< the picture: .exr, .pfm or .png
+    std::optional<std::filesystem::path> json;      ///< the statistics
+    std::optional<std::filesystem::path> reference; ///< a .pfm to compare the picture with
 };
 
 /// Reads the command line.

@@ -70,13 +70,11 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
             report.seconds.pilot += stopwatch.lap();
 
             Progress progress(emit);
-            PhotonPass pass{.count = emit,
-                            .smoothing = options.smoothing,
-                            .limits = limits,
-                            .progress = [&](std::uint64_t done) {
-                                progress.show(done);
-                                return true;
-                            }};
+            PhotonPass pass{
+                .count = emit, .smoothing = options.smoothing, .limits = limits, .progress = [&](std::uint64_t done) {
+                    progress.show(done);
+                    return true;
+                }};
             with_policies(options, kernel, repeats, [&](const auto& policies) {
                 TimingExecutor timing(threads);
                 PhotonSplatter<V, F, std::remove_cvref_t<decltype(policies)>> splatter(map, policies);

@@ -36,9 +36,9 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
 }
 
 [[nodiscard]] std::vector<std::pair<std::string, double>> passes(const Timings& seconds) {
-    return {{"eye paths", seconds.eye_paths}, {"eye path map", seconds.map},    {"pilot", seconds.pilot},
-            {"trace", seconds.trace},         {"footprints", seconds.fit},      {"splat", seconds.splat},
-            {"direct light", seconds.direct}, {"other", seconds.other()},       {"total", seconds.total}};
+    return {{"eye paths", seconds.eye_paths}, {"eye path map", seconds.map}, {"pilot", seconds.pilot},
+            {"trace", seconds.trace},         {"footprints", seconds.fit},   {"splat", seconds.splat},
+            {"direct light", seconds.direct}, {"other", seconds.other()},    {"total", seconds.total}};
 }
 
 } // namespace
@@ -46,8 +46,11 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
 void print_table(std::ostream& out, const Options& options, const Report& report) {
     const Statistics& statistics = report.statistics;
     out << "caustics " << options.scene << (report.smoothing ? text(", s = %g, ", *report.smoothing) : ", ")
-        << (options.first_order ? "first order, " : options.curved ? "curved, " : "") << name_of(options.sequence) << ", "
-        << name_of(options.kernel) << (options.pixel_filter ? "" : ", no pixel filter")
+        << (options.first_order ? "first order, "
+            : options.curved    ? "curved, "
+                                : "")
+        << name_of(options.sequence) << ", " << name_of(options.kernel)
+        << (options.pixel_filter ? "" : ", no pixel filter")
         << text(", %zu x %zu, %u thread%s\n", options.width, options.height, report.threads,
                 report.threads == 1 ? "" : "s");
     for (const std::string& note : report.notes)

@@ -38,8 +38,8 @@ public:
     BandwidthSweep(Grid grid, Evaluate evaluate);
 
     /// The bandwidth with the least cost: looks at four points about the expected one, and walks downhill from the best
-    /// that is known in strides of four, two and one points of the grid; about nine evaluations. SSIM often has a second
-    /// valley at wider kernels: hence the look. Of more valleys than it sees this gives the bottom of one.
+    /// that is known in strides of four, two and one points of the grid; about nine evaluations. SSIM often has a
+    /// second valley at wider kernels: hence the look. Of more valleys than it sees this gives the bottom of one.
     [[nodiscard]] double best(Measure measure);
 
     /// Evaluates every second point within so many points of the middle.

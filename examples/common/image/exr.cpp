@@ -84,9 +84,7 @@ void encode(Imf::OStream& stream, const Samples& image) {
 
 } // namespace
 
-bool has_openexr() {
-    return true;
-}
+bool has_openexr() { return true; }
 
 void write_exr(const std::filesystem::path& path, const Samples& image) {
     require_writable_samples("write_exr", image);
@@ -109,13 +107,9 @@ void write_exr(const std::filesystem::path& path, const Samples& image) {
 
 namespace nephroid::examples {
 
-bool has_openexr() {
-    return false;
-}
+bool has_openexr() { return false; }
 
-void write_exr(const std::filesystem::path& path, const Samples&) {
-    require_openexr(path);
-}
+void write_exr(const std::filesystem::path& path, const Samples&) { require_openexr(path); }
 
 } // namespace nephroid::examples
 

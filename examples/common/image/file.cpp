@@ -101,8 +101,6 @@ void write_file(const fs::path& path, std::string_view bytes) {
     file.take_name_of_target();
 }
 
-void require_writable(const fs::path& path) {
-    const TemporaryFile created_and_removed(resolve(path));
-}
+void require_writable(const fs::path& path) { const TemporaryFile created_and_removed(resolve(path)); }
 
 } // namespace nephroid::examples

@@ -76,8 +76,8 @@ private:
 
     /// Reflects or refracts the direction.
     /// @return  what becomes of radiance besides: light that is spread over more directions in a thinner medium comes
-    ///          from fewer in a denser one, so (n₁/n₂)² for a path that goes from n₁ to n₂; 0 for a direction through
-    ///          the wrong side of a surface with shading normals, where the path ends
+    ///          from fewer in a denser one, so (n₁/n₂)² for a path that goes from n₁ to n₂; 0 for a direction
+    ///          through the wrong side of a surface with shading normals, where the path ends
     [[nodiscard]] static double bend(const Hit<double>& hit, const Bounce<double, double>& bounce, Vec& direction) {
         const double side = dot(direction, hit.geometric_normal) > 0 ? -1 : 1;
         const Vec geometric = side * hit.geometric_normal, normal = side * hit.shading_normal;

@@ -11,7 +11,8 @@ namespace {
 
 using Points = std::vector<std::array<double, 2>>;
 
-/// The photons by window of a grid of `side` × `side` windows, each from 0 to 1; the last ones of the grid are left out.
+/// The photons by window of a grid of `side` × `side` windows, each from 0 to 1; the last ones of the grid are left
+/// out.
 [[nodiscard]] std::vector<Points> windows_of(const std::vector<StoredPhoton>& photons,
                                              const std::array<double, 4>& floor) {
     constexpr std::size_t side = 4;

@@ -25,8 +25,8 @@ struct BlueNoise {
     [[nodiscard]] static constexpr double least_frequency() { return 2.5; }
 };
 
-/// The spectrum of the photons on a part of the floor z = 0: square windows of a 4 × 4 grid in its middle, each faded to
-/// its border and scaled to the unit square. Frequencies up to twice the principal one of a window.
+/// The spectrum of the photons on a part of the floor z = 0: square windows of a 4 × 4 grid in its middle, each faded
+/// to its border and scaled to the unit square. Frequencies up to twice the principal one of a window.
 /// Throws std::runtime_error if a window holds fewer than 16 photons.
 [[nodiscard]] BlueNoise blue_noise(const std::vector<StoredPhoton>& photons, const std::array<double, 4>& floor,
                                    ThreadExecutor& threads);

@@ -10,8 +10,8 @@
 
 namespace nephroid::examples::relaxation {
 
-/// Writes before-K.png and after-K.png for each number of neighbours K, before-best.png and truth.png where the truth is
-/// known, dots-before.png, dots-after.png and features.png of photons on a floor, and spectrum-before.png and
+/// Writes before-K.png and after-K.png for each number of neighbours K, before-best.png and truth.png where the truth
+/// is known, dots-before.png, dots-after.png and features.png of photons on a floor, and spectrum-before.png and
 /// spectrum-after.png where there is evenly lit floor.
 /// @return  notes on what could not be shown
 std::vector<std::string> write_pictures(const std::filesystem::path& folder, const Subject& subject,

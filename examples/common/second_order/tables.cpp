@@ -129,7 +129,11 @@ Table equal_seconds_table(const std::vector<Study>& studies) {
         for (std::size_t count = 0; count < study.best.size(); ++count)
             table.rows.back().push_back(pair_of([&](Measure measure) {
                 const Reached first = reached(study, count, measure);
-                const char* bound = first.bound == Bound::at_most ? "≥ " : first.bound == Bound::more_than ? "≤ " : "";
+                const char* bound = "";
+                if (first.bound == Bound::at_most)
+                    bound = "≥ ";
+                else if (first.bound == Bound::more_than)
+                    bound = "≤ ";
                 return bound + text("%.2f", study.second[count].cost(measure) / first.cost);
             }));
     }

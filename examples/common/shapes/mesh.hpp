@@ -27,8 +27,8 @@ struct MeshData {
     std::vector<std::uint32_t> materials;                ///< one for each triangle; empty: all are material 0
 };
 
-/// Leaves hold up to four triangles in structure-of-arrays order. A test in T of all four lets through what might be hit,
-/// with a bound on its rounding; what passes is decided in `wide`, with a bound on that. So no ray passes between
+/// Leaves hold up to four triangles in structure-of-arrays order. A test in T of all four lets through what might be
+/// hit, with a bound on its rounding; what passes is decided in `wide`, with a bound on that. So no ray passes between
 /// triangles that share an edge, and a hit is as exact as its vertices are.
 template <class T>
 class TriangleMesh {
@@ -89,10 +89,14 @@ public:
             const wide side = dot(n, face); // zero: no normals here, or one that lies in the triangle's plane
             if (n0 != WideVec3(0) && n1 != WideVec3(0) && n2 != WideVec3(0) && side != 0) {
                 const wide sign = side < 0 ? -1 : 1; // the shading normal is on the geometric one's side
-                return {T(candidate.distance), position, geometric, Vec3<T>(sign * normalize(n)),
+                return {T(candidate.distance),
+                        position,
+                        geometric,
+                        Vec3<T>(sign * normalize(n)),
                         interpolated_normals<Vec3<T>>(p0, p1, p2, Vec3<T>(sign * n0), Vec3<T>(sign * n1),
                                                       Vec3<T>(sign * n2), T(u), T(v)),
-                        error, surface};
+                        error,
+                        surface};
             }
         }
         return {T(candidate.distance), position, geometric, geometric, Flat{}, error, surface};
@@ -172,8 +176,8 @@ private:
     static Lanes least(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
     static Lanes most(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 
-    /// Möller and Trumbore's test without its divisions, with a bound on the rounding of sums of products: what does not
-    /// pass is certainly missed.
+    /// Möller and Trumbore's test without its divisions, with a bound on the rounding of sums of products: what does
+    /// not pass is certainly missed.
     /// Source: Möller and Trumbore 1997, "Fast, minimum storage ray/triangle intersection"; the bounds are ours.
     [[nodiscard]] static auto misses(const Block& block, std::size_t first, const Ray<T>& ray, T t_max) {
         const auto all = [](const Vec3<T>& v) { return Vectors{Lanes{} + v.x, Lanes{} + v.y, Lanes{} + v.z}; };
@@ -187,8 +191,8 @@ private:
         const Vectors d = all(ray.direction), a = vertices(0), to_a = a.minus(all(ray.origin));
         const Vectors ab = vertices(1).minus(a), ac = vertices(2).minus(a);
         const Vectors d_ac = d.cross(ac), a_ab = to_a.cross(ab);
-        // With n = ab × ac the slope is n · d, the height n · (a − o): t is their ratio. u, v and w are barycentric
-        // coordinates, times the slope.
+        // With n = ab × ac the slope is n · d, the height n · (a − o): t is their ratio. u, v and w are
+        // barycentric coordinates, times the slope.
         const Lanes slope = -d_ac.dot(ab), height = a_ab.dot(ac);
         const Lanes v = d_ac.dot(to_a), w = a_ab.dot(d), u = slope - v - w;
 

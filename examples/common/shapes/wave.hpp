@@ -109,8 +109,8 @@ private:
     }
 
     /// The height above the surface along the ray is f(t) = c + g t − a sin(p + w t). Seen from the side that the ray
-    /// starts on and in the direction in which the phase grows, f starts positive, a > 0 or the sine is shifted, w >= 0.
-    /// Its minima lie at equal distances, and their values on a line: the first one below zero is found at once,
+    /// starts on and in the direction in which the phase grows, f starts positive, a > 0 or the sine is shifted, w >=
+    /// 0. Its minima lie at equal distances, and their values on a line: the first one below zero is found at once,
     /// however many waves the ray passes over, and f falls monotonically to it from the maximum before.
     [[nodiscard]] std::optional<double> first_crossing(const Vec3<double>& o, const Vec3<double>& d,
                                                        const Interval& t) const {

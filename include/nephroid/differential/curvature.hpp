@@ -189,7 +189,7 @@ struct AnyCurvature : std::variant<Kinds...> {
     using std::variant<Kinds...>::variant;
 
     template <Vector3 V>
-        requires(Curvature<Kinds, V> && ...)
+        requires(Curvature<Kinds, V>&&...)
     [[nodiscard]] V operator()(const V& d_position) const {
         return std::visit([&](const auto& kind) -> V { return kind(d_position); },
                           static_cast<const std::variant<Kinds...>&>(*this));

@@ -164,11 +164,12 @@ concept LiesOnSurface = requires(const H hit) {
 /// @param hit     with `position`, `geometric_normal`, and where it has them `shading_normal` and a number `surface`,
 ///                which the neighbouring points must share
 /// @param scale   of the surface about the hit, world units, positive and finite (else dn is NaN): its least radius of
-///                curvature, or where that is unknown the object's size. Too large costs a few rays more, as long as the
-///                factor is well below ε^(−1/3), 200 in float; too small costs accuracy, the factor to the power 2/3. The
-///                rays start about ε^(1/3) scale off the surface: a tracer that skips a distance of its own at the
-///                start of every ray must skip less
-/// @return  as `hit.curvature`. The relative error is about (ε (1 + |p|/scale))^(2/3), with ε the scalar's epsilon and
+///                curvature, or where that is unknown the object's size. Too large costs a few rays more, as long as
+///                the factor is well below ε^(−1/3), 200 in float; too small costs accuracy, the factor to the power
+///                2/3. The rays start about ε^(1/3) scale off the surface: a tracer that skips a distance of its own
+///                at the start of every ray must skip less
+/// @return  as `hit.curvature`. The relative error is about (ε (1 + |p|/scale))^(2/3), with ε the scalar's epsilon
+///          and
 ///          |p| the position's largest coordinate: 3e-5 in float, 5e-11 in double
 template <class Tracer, LiesOnSurface H>
 [[nodiscard]] auto finite_difference_curvature(const Tracer& tracer, const H& hit,

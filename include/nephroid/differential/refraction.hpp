@@ -81,14 +81,15 @@ private:
 ///          the normal.
 template <Vector3 V>
 [[nodiscard]] std::optional<Refraction<V>> refraction(const V& direction, const std::type_identity_t<V>& normal,
-                                                   scalar_t<V> eta) {
+                                                      scalar_t<V> eta) {
     using T = scalar_t<V>;
-    // Rounding can make the cosine of two unit vectors exceed one by a few units in the last place. (This order keeps NaN.)
+    // Rounding can make the cosine of two unit vectors exceed one by a few units in the last place. (This order keeps
+    // NaN.)
     const T cos_incident = (std::min)(-dot(direction, normal), T(1));
     if (!(cos_incident > T(0)))
         return std::nullopt;
-    // 1 − η² sin² in a form that cancels nothing for η <= 1, and for η > 1 only towards the critical angle: indices
-    // that (nearly) match keep their digits at grazing incidence.
+    // 1 − η² sin² in a form that cancels nothing for η <= 1, and for η > 1 only towards the critical angle:
+    // indices that (nearly) match keep their digits at grazing incidence.
     const T cos2_refracted = square(eta * cos_incident) - (eta - T(1)) * (eta + T(1));
     if (!(cos2_refracted > T(0)))
         return std::nullopt;

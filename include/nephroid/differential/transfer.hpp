@@ -48,7 +48,8 @@ template <Vector3 V>
     using T = scalar_t<V>;
     using t = vector_traits<V>;
     const T cos_hit = dot(direction, normal);
-    // Below 2^-40 in float, 2^-338 in double, what is transferred may overflow. (Not isfinite: -ffast-math removes that.)
+    // Below 2^-40 in float, 2^-338 in double, what is transferred may overflow. (Not isfinite: -ffast-math removes
+    // that.)
     constexpr T least = T(1) / detail::power_of_two<T>(std::numeric_limits<T>::max_exponent / 3 - 2);
     if (!(abs(cos_hit) > least * (abs(T(t::x(normal))) + abs(T(t::y(normal))) + abs(T(t::z(normal))))))
         return std::nullopt;

@@ -9,8 +9,8 @@
 namespace nephroid {
 
 /// How the library reads a user's flux type where one number is needed: for the flux account and for Russian
-/// roulette. A scalar (vector/scalar.hpp) and any `Vector3` (an RGB colour in the renderer's own vector) come along; another
-/// type specialises this with
+/// roulette. A scalar (vector/scalar.hpp) and any `Vector3` (an RGB colour in the renderer's own vector) come along;
+/// another type specialises this with
 ///
 /// ```cpp
 /// template <> struct nephroid::flux_traits<MySpectrum> {

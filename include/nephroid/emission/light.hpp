@@ -71,8 +71,8 @@ concept EstimatesPower = requires(const L light) {
 ///         const float u1 = samples.template next<float>(), u2 = samples.template next<float>();
 ///         const auto disk = nephroid::concentric_disk(u1, u2);
 ///         const nephroid::Frame<Vec3> frame = nephroid::frame_about(direction);
-///         const float length = spread.length(nephroid::pi<float> * radius * radius); // the domain is the beam's section
-///         const Vec3 zero(0, 0, 0);
+///         const float length = spread.length(nephroid::pi<float> * radius * radius); // the domain is the beam's
+///         section const Vec3 zero(0, 0, 0);
 ///         return {position + radius * disk.x * frame.u + radius * disk.y * frame.v, direction,
 ///                 flux * (1 / spread.photons),
 ///                 {nephroid::Tangent<Vec3>{length * frame.u, zero}, nephroid::Tangent<Vec3>{length * frame.v, zero}}};
@@ -99,13 +99,17 @@ struct EmissionDomains {
     return dimensions == 2 ? domains.two : dimensions == 4 ? domains.four : domains.others;
 }
 
-/// Those of a light: by its `dimensions`, or, for a light of several, by its `domains`. Members of these names that mean
-/// something else are of another kind or type.
+/// Those of a light: by its `dimensions`, or, for a light of several, by its `domains`. Members of these names that
+/// mean something else are of another kind or type.
 template <class L>
 inline constexpr EmissionDomains emission_domains = [] {
-    if constexpr (requires { { &L::domains } -> std::same_as<const EmissionDomains*>; })
+    if constexpr (requires {
+                      { &L::domains } -> std::same_as<const EmissionDomains*>;
+                  })
         return L::domains;
-    else if constexpr (requires { { &L::dimensions } -> std::same_as<const std::uint32_t*>; })
+    else if constexpr (requires {
+                           { &L::dimensions } -> std::same_as<const std::uint32_t*>;
+                       })
         return EmissionDomains{L::dimensions == 2, L::dimensions == 4, L::dimensions != 2 && L::dimensions != 4};
     else
         return EmissionDomains{};

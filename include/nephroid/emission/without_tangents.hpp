@@ -11,7 +11,8 @@
 namespace nephroid {
 
 /// The same photons as the light's own, in position, direction and flux, bit for bit, but with N = 0 tangents, so that
-/// nothing is spent on carrying them along. Not a `Light`, which has at least two; what takes a `PhotonSource` takes it.
+/// nothing is spent on carrying them along. Not a `Light`, which has at least two; what takes a `PhotonSource` takes
+/// it.
 ///
 /// ```cpp
 /// const auto traced = nephroid::trace_photons(scene, nephroid::WithoutTangents(light), pass, sequence, executor);

@@ -29,11 +29,14 @@ namespace nephroid {
 /// };
 /// ```
 template <class E>
-concept Executor = requires(E executor, std::size_t count, void (*task)(std::size_t)) { executor(count, task); };
+concept Executor = requires(E executor, std::size_t count, void (*task)(std::size_t)) {
+    executor(count, task);
+};
 
 /// The same, for functions that take one by a forwarding reference E&&.
 template <class E>
-concept ExecutorArgument = Executor<std::remove_reference_t<E>&>;
+concept ExecutorArgument = Executor < std::remove_reference_t<E>
+& > ;
 
 /// An executor whose type does not matter: what is given one is compiled once.
 using TaskRunner = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
@@ -88,8 +91,8 @@ static_assert(Executor<SerialExecutor>);
 /// remaining ones are not begun.
 class ThreadExecutor {
 public:
-    /// @param threads  in all, the caller's included; 0 takes what the hardware has. Where the system gives fewer, those
-    ///                 do the work: `threads()` tells.
+    /// @param threads  in all, the caller's included; 0 takes what the hardware has. Where the system gives fewer,
+    ///                 those do the work: `threads()` tells.
     explicit ThreadExecutor(unsigned threads = 0) {
         if (threads == 0)
             threads = (std::max)(1u, std::thread::hardware_concurrency());

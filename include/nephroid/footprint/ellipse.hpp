@@ -77,8 +77,8 @@ struct FilterMatrix {
     V row_a, row_b;
 };
 
-/// M for semi-axes a and b: the top rows of the inverse of [a b n], without inverting a 3 × 3 matrix: b × n and n × a,
-/// over a · (b × n).
+/// M for semi-axes a and b: the top rows of the inverse of [a b n], without inverting a 3 × 3 matrix: b × n and n ×
+/// a, over a · (b × n).
 ///
 /// In plain products: a and b lie across n, so nothing cancels in the rows' lengths, and what does in the determinant
 /// costs no more than the rounding of the rows themselves, a few epsilon of |a| |b| / |a × b|.
@@ -131,9 +131,8 @@ template <Vector3 V>
 /// The ellipse with this covariance in the frame, given by its determinant instead of the variance along v, which
 /// would have to be had by a difference: its Cholesky factor.
 template <Vector3 V>
-[[nodiscard]] Ellipse<V> ellipse_of_covariance(const Frame<V>& frame, const V& normal,
-                                               wider_t<scalar_t<V>> variance_u, wider_t<scalar_t<V>> covariance,
-                                               wider_t<scalar_t<V>> determinant) {
+[[nodiscard]] Ellipse<V> ellipse_of_covariance(const Frame<V>& frame, const V& normal, wider_t<scalar_t<V>> variance_u,
+                                               wider_t<scalar_t<V>> covariance, wider_t<scalar_t<V>> determinant) {
     using T = scalar_t<V>;
     using W = wider_t<T>;
     if (variance_u == W(0))
@@ -144,8 +143,8 @@ template <Vector3 V>
 }
 } // namespace detail
 
-/// The ellipse with covariance a aᵀ + b bᵀ + r² (I − n nᵀ): a disk of radius r added in quadrature, which is what
-/// a convolution does to second moments. Continuous through collapse: a point becomes the disk. r = 0 changes
+/// The ellipse with covariance a aᵀ + b bᵀ + r² (I − n nᵀ): a disk of radius r added in quadrature, which is
+/// what a convolution does to second moments. Continuous through collapse: a point becomes the disk. r = 0 changes
 /// nothing but the choice of axis vectors.
 template <Vector3 V>
 [[nodiscard]] Ellipse<V> add_disk(const Ellipse<V>& ellipse, scalar_t<V> radius) {

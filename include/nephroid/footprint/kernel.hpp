@@ -86,7 +86,8 @@ struct UniformKernel {
     }
 };
 
-/// A Gaussian of standard deviation 1/3 per axis, cut at the edge of the disk: exp(−9/2 r²) · 9 / (2π (1 − e^(−9/2))).
+/// A Gaussian of standard deviation 1/3 per axis, cut at the edge of the disk: exp(−9/2 r²) · 9 / (2π (1 −
+/// e^(−9/2))).
 struct TruncatedGaussianKernel {
     static constexpr double cut = 0.011108996538242306; ///< e^(−9/2), what the untruncated Gaussian has left at r = 1
     static constexpr double second_moment = (1.0 - 5.5 * cut) / (9.0 * (1.0 - cut));
@@ -97,6 +98,7 @@ struct TruncatedGaussianKernel {
     }
 };
 
-static_assert(Kernel<BiweightKernel> && Kernel<EpanechnikovKernel> && Kernel<ConeKernel> && Kernel<UniformKernel> && Kernel<TruncatedGaussianKernel>);
+static_assert(Kernel<BiweightKernel> && Kernel<EpanechnikovKernel> && Kernel<ConeKernel> && Kernel<UniformKernel> &&
+              Kernel<TruncatedGaussianKernel>);
 
 } // namespace nephroid

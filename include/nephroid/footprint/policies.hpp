@@ -59,7 +59,8 @@ namespace detail {
 template <Vector3 V>
 void shorten(Ellipse<V>& ellipse, const SingularValues<scalar_t<V>>& sigma, scalar_t<V> bound) {
     using T = scalar_t<V>;
-    // The major axis is cos φ a + sin φ b with tan 2φ = 2 a·b / (a² − b²), over the major radius to stay in range.
+    // The major axis is cos φ a + sin φ b with tan 2φ = 2 a·b / (a² − b²), over the major radius to stay in
+    // range.
     const V a = T(1) / sigma.major * ellipse.a, b = T(1) / sigma.major * ellipse.b;
     using std::atan2;
     const T phi = T(0.5) * atan2(T(2) * dot(a, b), length2(a) - length2(b));

@@ -44,7 +44,8 @@ struct SecondOrder {
                                  ///< opposite borders of the patch are neighbours; of no effect on area lights
 };
 
-/// s where none is given: of first order, and of photons about which neither their neighbours say nor the others together.
+/// s where none is given: of first order, and of photons about which neither their neighbours say nor the others
+/// together.
 inline constexpr double default_smoothing = 8;
 
 namespace detail {

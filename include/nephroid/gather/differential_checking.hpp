@@ -8,20 +8,20 @@
 
 namespace nephroid {
 
-/// When to stop adding photons. They are added nearest first, and the estimate E with a constant kernel is looked at from
-/// time to time. As long as light is even, all looks see the same but for chance: with n photons the standard deviation
-/// of ln E is 1/√n (for unequal fluxes n is (ΣΦ)²/ΣΦ²). So each look says that the logarithm lies within
-/// `significance`/√n of what it sees. Where these intervals no longer have a point in common, the disk has reached into
-/// other light, and the photons of the look before are taken.
+/// When to stop adding photons. They are added nearest first, and the estimate E with a constant kernel is looked at
+/// from time to time. As long as light is even, all looks see the same but for chance: with n photons the standard
+/// deviation of ln E is 1/√n (for unequal fluxes n is (ΣΦ)²/ΣΦ²). So each look says that the logarithm lies
+/// within `significance`/√n of what it sees. Where these intervals no longer have a point in common, the disk has
+/// reached into other light, and the photons of the look before are taken.
 ///
 /// The papers that describe differential checking leave the rule open ("if a large difference is detected"); this is
 /// Lepski's choice of a bandwidth: the largest whose estimate no smaller one contradicts. It keeps what all looks agree
 /// on, not the look from which the estimates seem to rise or fall: that one would be an extreme of the sequence, chosen
 /// for its error. Of looks at a and b > a photons ln E differs by chance with the variance 1/a − 1/b, less than the
-/// square of 1/√a + 1/√b, which is what parts them: a pair errs with less than the chance of `significance` standard
-/// deviations. All looks together, with the defaults and photons at random, cut even light short in 0.1% of places for
-/// 200 photons, 0.7% for 1000 and 2.4% for 4000, late where they do: rms errors grow by 0.1%, 1% and 7%. Stratified
-/// photons have less noise than that, and are cut less.
+/// square of 1/√a + 1/√b, which is what parts them: a pair errs with less than the chance of `significance`
+/// standard deviations. All looks together, with the defaults and photons at random, cut even light short in 0.1% of
+/// places for 200 photons, 0.7% for 1000 and 2.4% for 4000, late where they do: rms errors grow by 0.1%, 1% and 7%.
+/// Stratified photons have less noise than that, and are cut less.
 ///
 /// No test can tell a detail from an edge. Where the light changes within a pixel, estimates follow it, and a picture
 /// with one eye path in a pixel aliases: give the pixel's size as `resolution`.

@@ -2,10 +2,10 @@
 /// @file  Photon differential mapping: photons stored with their footprints and gathered at every eye path vertex.
 #pragma once
 
+#include "nephroid/execution/executor.hpp"
+#include "nephroid/gather/footprint_map.hpp"
 #include "nephroid/gather/gather.hpp"
 #include "nephroid/splat/splat.hpp"
-#include "nephroid/gather/footprint_map.hpp"
-#include "nephroid/execution/executor.hpp"
 
 #include <type_traits>
 
@@ -26,10 +26,11 @@ public:
     using T = scalar_t<V>;
 
     /// @param deposits  photons with their tangents, as `trace_photons` returns them
-    /// @param eyes      where the estimate will be asked for: bounds the footprints and gives the pixel filter its width,
-    ///                  as in splatting; not needed after the call
-    /// @param policies  `SplatPolicies<…>`: how a photon becomes a footprint. The footprints are those of the deposits as
-    ///                  they are; what `splat_caustics` makes of them by neighbouring photons is not done here
+    /// @param eyes      where the estimate will be asked for: bounds the footprints and gives the pixel filter its
+    ///                  width, as in splatting; not needed after the call
+    /// @param policies  `SplatPolicies<…>`: how a photon becomes a footprint. The footprints are those of the
+    ///                  deposits as they are; what `splat_caustics` makes of them by neighbouring photons is not done
+    ///                  here
     /// @param executor  who runs the work; the result does not depend on it
     template <std::size_t N, class Policies, class E = SerialExecutor>
     DifferentialMap(const std::vector<Deposit<V, F, N>>& deposits, const EyePathMap<V>& eyes, const Policies& policies,

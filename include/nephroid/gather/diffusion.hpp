@@ -2,8 +2,8 @@
 /// @file  Diffusion-based photon mapping: kernels that smooth along the light's edges and not across.
 #pragma once
 
-#include "nephroid/gather/gather.hpp"
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/gather/gather.hpp"
 #include "nephroid/vector/frame.hpp"
 
 #include <limits>
@@ -19,21 +19,23 @@ struct DiffusionOptions {
     double least_ratio = 0.05; ///< α in (0, 1]: of the squares of a kernel's axes, where there is a sharp edge
 };
 
-/// Estimates irradiance as Σ Φ K(|M d|²) |M| over the photons within h on the side that the normal faces, where d leads
-/// to the photon and the matrix M of each photon's own kernel follows from the light around it:
+/// Estimates irradiance as Σ Φ K(|M d|²) |M| over the photons within h on the side that the normal faces, where d
+/// leads to the photon and the matrix M of each photon's own kernel follows from the light around it:
 ///
 /// 1. the gradient of the irradiance E at the photon p, from the k nearest photons, by the derivative of the biweight
-///    estimate: with r the distance of the k-th and u = d/r, ∇E ∝ Σ Φ (1 − u²) u and E ∝ Σ Φ (1 − u²)²; g = r ∇E/E,
-///    4 times the ratio of these sums, has no unit;
-/// 2. the structure tensor S = Σ w g gᵀ/Σ w, smoothed over the same neighbours with w the biweight kernel, in p's tangent
+///    estimate: with r the distance of the k-th and u = d/r, ∇E ∝ Σ Φ (1 − u²) u and E ∝ Σ Φ (1 −
+///    u²)²; g = r ∇E/E, 4 times the ratio of these sums, has no unit;
+/// 2. the structure tensor S = Σ w g gᵀ/Σ w, smoothed over the same neighbours with w the biweight kernel, in p's
+/// tangent
 ///    plane; eigenvalues μ₁ >= μ₂, the first one's vector across the edge;
-/// 3. the coherence-enhancing diffusion tensor, with eigenvalues α across and α + (1 − α) exp(−C/(μ₁ − μ₂)²) along
+/// 3. the coherence-enhancing diffusion tensor, with eigenvalues α across and α + (1 − α) exp(−C/(μ₁ −
+/// μ₂)²) along
 ///    [Weickert 1999], divided by the latter, so that h alone says how wide kernels are: a disk of radius h where the
 ///    light is even or has no direction, √α h across a sharp edge;
 /// 4. M maps that ellipse to the unit disk. ∫ K(|M d|²) |M| = 1 over the plane: no photon's light is lost.
 ///
-/// At a sharp edge |g| is about 2. For photons at random in even light |g|² is 12/k on average, without a direction, and S
-/// is smoothed over k of them: for k = 100 such coherences stay below an eighth, and the kernels near disks.
+/// At a sharp edge |g| is about 2. For photons at random in even light |g|² is 12/k on average, without a direction,
+/// and S is smoothed over k of them: for k = 100 such coherences stay below an eighth, and the kernels near disks.
 ///
 /// The best diffusivity is the scene's: 0.1 where a caustic is all folds and cusps, 1.6 and more (nearly disks) where
 /// light changes smoothly, as kernels that narrow on a mere slope gain noise and no sharpness. With 0.4 20,000 random
@@ -146,8 +148,8 @@ private:
         return make_vector<V>(tree.x()[slot], tree.y()[slot], tree.z()[slot]);
     }
 
-    /// Calls use(slot, offset over the radius of the neighbourhood, in the tangent plane, and its square) for the photons
-    /// about one.
+    /// Calls use(slot, offset over the radius of the neighbourhood, in the tangent plane, and its square) for the
+    /// photons about one.
     template <class Use>
     void for_each_neighbour(std::size_t of, Use&& use) const {
         const V centre = point(of), normal = map_->normal(of);

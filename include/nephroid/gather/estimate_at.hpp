@@ -14,8 +14,9 @@
 
 namespace nephroid {
 
-/// Calls sink(vertex index, estimate(position, normal)) for every vertex of the user's array, serially and in its order,
-/// when all have been estimated. For a fast look-up the order should be the picture's: neighbours follow each other.
+/// Calls sink(vertex index, estimate(position, normal)) for every vertex of the user's array, serially and in its
+/// order, when all have been estimated. For a fast look-up the order should be the picture's: neighbours follow each
+/// other.
 ///
 /// @param vertices  a random-access range
 /// @param position  projection: a member pointer or a callable

@@ -12,8 +12,8 @@ struct FixedRangeOptions {
                                 ///< and more leaves the sphere
 };
 
-/// Estimates irradiance as Σ Φ K(r²/R²)/R² over the photons within R on the side that the normal faces. The kernel is
-/// the same everywhere, so on a plane the light's energy is kept but for the borders.
+/// Estimates irradiance as Σ Φ K(r²/R²)/R² over the photons within R on the side that the normal faces. The kernel
+/// is the same everywhere, so on a plane the light's energy is kept but for the borders.
 ///
 /// ```cpp
 /// const nephroid::FixedRange estimate(map, {.range = 0.02});

@@ -49,8 +49,8 @@ public:
     /// The box in a slot: its index as the user counts.
     [[nodiscard]] std::uint32_t index(std::size_t slot) const { return index_[slot]; }
 
-    /// Calls visit(leaf) with the slots [leaf.first, leaf.first + leaf.size) of every leaf whose box holds the point, its
-    /// border included. A point that is not finite lies in none.
+    /// Calls visit(leaf) with the slots [leaf.first, leaf.first + leaf.size) of every leaf whose box holds the point,
+    /// its border included. A point that is not finite lies in none.
     template <class Visit>
     void visit_leaves(const V& point, Visit&& visit) const {
         using t = vector_traits<V>;

@@ -22,12 +22,12 @@ struct NearestPhotonsOptions {
 ///
 /// Only photons on the side that the normal faces are looked for, so that k is the number that counts. The k-th photon
 /// gives R and nothing else: K is zero at the rim. That is the consistent choice. For photons spread at random with
-/// density ρ the other k − 1 lie uniformly in the disk and E[1/(π R²)] = ρ/(k − 1), so the estimate is unbiased for every
-/// kernel; counting the k-th in, as Σ Φ/(π R²) over all k does, makes the mean k/(k − 1) too large.
+/// density ρ the other k − 1 lie uniformly in the disk and E[1/(π R²)] = ρ/(k − 1), so the estimate is unbiased
+/// for every kernel; counting the k-th in, as Σ Φ/(π R²) over all k does, makes the mean k/(k − 1) too large.
 ///
 /// Where `range` holds fewer than k photons, R is the range. Where there are fewer than k in all and no range, R is
-/// the distance of the farthest. R is never less than what positions resolve there, four epsilon of the distance from the
-/// world's origin: where k photons lie in one place, the estimate is large, and not infinite.
+/// the distance of the farthest. R is never less than what positions resolve there, four epsilon of the distance from
+/// the world's origin: where k photons lie in one place, the estimate is large, and not infinite.
 ///
 /// ```cpp
 /// const nephroid::NearestPhotons estimate(map, {.count = 100}, nephroid::ConeKernel{});

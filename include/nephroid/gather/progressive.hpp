@@ -2,8 +2,8 @@
 /// @file  Progressive photon mapping: pass after pass of photons with a radius that shrinks, no end to their number.
 #pragma once
 
-#include "nephroid/gather/gather.hpp"
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/gather/gather.hpp"
 
 #include <type_traits>
 
@@ -17,8 +17,9 @@ inline void check_alpha(const char* who, double alpha) {
 }
 } // namespace detail
 
-/// The radius of pass after pass, the same for every vertex: r² ← r² (i + α)/(i + 1) after pass i = 1, 2, …, so that
-/// r² falls like i^(α−1): the mean of the passes' estimates loses its bias like that, and its variance like i^(−α).
+/// The radius of pass after pass, the same for every vertex: r² ← r² (i + α)/(i + 1) after pass i = 1, 2, …, so
+/// that r² falls like i^(α−1): the mean of the passes' estimates loses its bias like that, and its variance like
+/// i^(−α).
 ///
 /// With FixedRange, photons of each pass in a map of their own and estimates averaged over the passes, this is
 /// progressive photon mapping without statistics [Knaus and Zwicker 2011]. A photon's footprint is as wide as its

@@ -2,11 +2,11 @@
 /// @file  Photons traced and kept: what photon maps are made of.
 #pragma once
 
-#include "nephroid/sequence/halton.hpp"
-#include "nephroid/sequence/sequence.hpp"
 #include "nephroid/emission/without_tangents.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/pass/traced_batch.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/sequence/sequence.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The order in which photons are traced: neighbours at the lamp one after the other, as their rays then meet the
+/// @file  The order in which photons are traced: neighbours at the lamp one after the other, as their rays then meet
+///        the
 /// same nodes of the ray tracer's tree and the same triangles.
 ///
 /// It decides how fast a batch is traced and nothing else: photon i is the same whenever it is traced, and goes where
@@ -8,8 +9,8 @@
 
 #include "nephroid/emission/emission_sample.hpp"
 #include "nephroid/emission/without_tangents.hpp"
-#include "nephroid/sequence/sequence.hpp"
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/sequence/sequence.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,14 +47,16 @@ struct PlacedPhoton {
     std::uint32_t number; ///< in the batch, from 0
 };
 
-/// Sorts the photons of one batch after another, in parallel; keeps its memory, 18 bytes for each photon of the largest.
+/// Sorts the photons of one batch after another, in parallel; keeps its memory, 18 bytes for each photon of the
+/// largest.
 class CoherentOrder {
 public:
     /// @param light  as for `splat_caustics`; draws every photon's numbers here once more
     /// @param first  index of the batch's first photon
     /// @param count  of photons, below 2^32
-    /// @return  the photons first + number in the order in which they are best traced, those in one place in the order of
-    ///          their indices; until the next call. A function of what is drawn alone: the executor makes no difference.
+    /// @return  the photons first + number in the order in which they are best traced, those in one place in the order
+    ///          of their indices; until the next call. A function of what is drawn alone: the executor makes no
+    ///          difference.
     template <PhotonSource L, SampleSequence Sequence, ExecutorArgument E>
     std::span<const PlacedPhoton> sort(const L& light, const Sequence& sequence, std::uint64_t first, std::size_t count,
                                        E& executor) {

@@ -108,8 +108,8 @@ inline void add_block(std::span<const Wave> waves, const WaveTable::Entry* table
 
 } // namespace detail
 
-/// The sums at all frequencies (i, j) with 0 <= i, j and i² + j² <= highest², by cost 4 · points · π/4 · highest²
-/// multiplications and additions in single precision.
+/// The sums at all frequencies (i, j) with 0 <= i, j and i² + j² <= highest², by cost 4 · points · π/4 ·
+/// highest² multiplications and additions in single precision.
 ///
 /// @param points    finite, not checked
 /// @param highest   frequency, cycles per side of the unit square

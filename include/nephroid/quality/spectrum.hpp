@@ -48,8 +48,8 @@ struct Annulus {
 /// Source: Ulichney 1988; Lagae and Dutré 2008, "A comparison of methods for generating Poisson disk distributions".
 [[nodiscard]] inline double principal_frequency(double points) { return std::sqrt(2 / std::numbers::sqrt3 * points); }
 
-/// The power spectrum of point sets of one kind, P(f) = |Σ exp(−2πi f·x)|² / N at integer frequencies f, the mean of
-/// the sets' periodograms.
+/// The power spectrum of point sets of one kind, P(f) = |Σ exp(−2πi f·x)|² / N at integer frequencies f, the mean
+/// of the sets' periodograms.
 ///
 /// One set's periodogram does not settle with more points: where the points are random it has at each frequency an
 /// exponential distribution, whose standard deviation is its mean, so its anisotropy is 0 dB. M sets lower that to
@@ -110,8 +110,8 @@ public:
     }
 
     /// The mean power of the frequencies with least <= |f| < most; NaN if there is none or no set. Without f = 0, which
-    /// is the number of points, and under a Hann window without its neighbours |f_x|, |f_y| <= 1, which hold the window's
-    /// own peak.
+    /// is the number of points, and under a Hann window without its neighbours |f_x|, |f_y| <= 1, which hold the
+    /// window's own peak.
     [[nodiscard]] double band_power(double least, double most) const {
         double sum = 0;
         std::size_t count = 0;
@@ -125,8 +125,8 @@ public:
         return count > 0 && sets_ > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
     }
 
-    /// The spectrum by radius: annuli k = 1 … highest − 1, the whole ones. Under a Hann window the first one holds the
-    /// window's own peak.
+    /// The spectrum by radius: annuli k = 1 … highest − 1, the whole ones. Under a Hann window the first one holds
+    /// the window's own peak.
     [[nodiscard]] std::vector<Annulus> radial() const {
         std::vector<Annulus> annuli(highest_ + 1);
         for_each_independent([&](double radius, double power) {

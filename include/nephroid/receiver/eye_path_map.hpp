@@ -2,8 +2,8 @@
 /// @file  The eye path map: where the camera's paths end, looked up by the footprints that fall on them.
 #pragma once
 
-#include "nephroid/tree/point_tree.hpp"
 #include "nephroid/receiver/spacing.hpp"
+#include "nephroid/tree/point_tree.hpp"
 
 #include <algorithm>
 #include <functional>

@@ -9,8 +9,8 @@
 
 namespace nephroid {
 
-/// `sink(vertex, value)`: takes what has been summed up at an eye path vertex, by the index in the renderer's own array,
-/// and adds it to the vertex's pixel. Called from one thread, once for each vertex.
+/// `sink(vertex, value)`: takes what has been summed up at an eye path vertex, by the index in the renderer's own
+/// array, and adds it to the vertex's pixel. Called from one thread, once for each vertex.
 ///
 /// ```cpp
 /// splatter.for_each([&](std::size_t vertex, const Colour& irradiance) {

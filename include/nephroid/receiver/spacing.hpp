@@ -127,8 +127,8 @@ private:
 ///
 /// The neighbours of a lattice point are at p (four), √2 p (four), so the mean squared distance to the nearest eight
 /// is 1.5 p²; a lattice stretched by foreshortening gives a spacing between its two sides, a random sampling of
-/// density ρ about 0.95/√ρ. With fewer points the neighbours at hand are taken, by the same rule. Points in the same
-/// place count once.
+/// density ρ about 0.95/√ρ. With fewer points the neighbours at hand are taken, by the same rule. Points in the
+/// same place count once.
 ///
 /// @return  world units; 0 if all points coincide or there is only one
 template <Scalar T>

@@ -2,8 +2,8 @@
 /// @file  Features of a photon map, and the photons that they hold: Section 3.2 of Spencer and Jones 2009.
 #pragma once
 
-#include "nephroid/relaxation/feature_search.hpp"
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/relaxation/feature_search.hpp"
 
 #include <numeric>
 #include <utility>
@@ -66,8 +66,8 @@ private:
         followed ///< was searched, or lies next to a photon on a feature that was
     };
 
-    /// The features through a photon: Σ ι' g gᵀ in its frame, for a line has no sign [the paper adds up vectors, eq.
-    /// 9, which cancel between the two edges of a thin bar], and the largest ι'.
+    /// The features through a photon: Σ ι' g gᵀ in its frame, for a line has no sign [the paper adds up vectors,
+    /// eq. 9, which cancel between the two edges of a thin bar], and the largest ι'.
     struct Lines {
         T uu{0}, uv{0}, vv{0}, weight{0};
     };

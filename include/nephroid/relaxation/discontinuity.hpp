@@ -28,8 +28,8 @@ struct Discontinuity {
 
 namespace detail {
 
-/// The mean distance between as many photons on a disc of radius 1 as this, by the paper's 2/(K + 1) √(K/π): candidates
-/// are tried so far apart.
+/// The mean distance between as many photons on a disc of radius 1 as this, by the paper's 2/(K + 1) √(K/π):
+/// candidates are tried so far apart.
 [[nodiscard]] inline double candidate_step(std::size_t count) {
     return 2 / (double(count) + 1) * std::sqrt(double(count) / std::numbers::pi);
 }

@@ -19,8 +19,8 @@ template <Flux F>
     return flux_traits<F>::power(static_cast<F>(a * b));
 }
 
-/// 1 − |a − b|/max(|a|, |b|), at least 0, from the inner products of two fluxes: for one band the ratio of the smaller
-/// to the larger [as in eq. 7]. 1 where both are zero.
+/// 1 − |a − b|/max(|a|, |b|), at least 0, from the inner products of two fluxes: for one band the ratio of the
+/// smaller to the larger [as in eq. 7]. 1 where both are zero.
 [[nodiscard]] inline double homogeneity_of(double aa, double ab, double bb) {
     const double larger = (std::max)(aa, bb);
     return larger > 0 ? (std::max)(0.0, 1 - std::sqrt((std::max)(0.0, aa + bb - 2 * ab) / larger)) : 1;
@@ -50,8 +50,8 @@ struct FluxSums {
 } // namespace detail
 
 /// The split of a row of photons into two fluxes, each alike in itself: the least sum of squared differences from the
-/// two means, over all bands. The homogeneity is 1 − |m_1 − m_2|/max |m|, for one band the ratio of the two means as
-/// in eq. 7; colours without a band in common are as different as bright and dark. The evidence is the logarithm of
+/// two means, over all bands. The homogeneity is 1 − |m_1 − m_2|/max |m|, for one band the ratio of the two means
+/// as in eq. 7; colours without a band in common are as different as bright and dark. The evidence is the logarithm of
 /// the likelihood ratio of normal distributions about one and two means, n/2 log(S/(S_1 + S_2)).
 ///
 /// @param fluxes  in the order of the photons' places

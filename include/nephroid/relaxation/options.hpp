@@ -15,8 +15,8 @@ namespace nephroid {
 enum class FluxDiffusion {
     none,
     conserving,   ///< pairs of photons exchange flux: the total is kept to rounding
-    weighted_mean ///< [Spencer and Jones 2009, eq. 12]: does not keep the total, which 20 steps over 2,000 random photons
-                  ///< with fluxes of 0 to 2 change by 0.7 to 0.9%
+    weighted_mean ///< [Spencer and Jones 2009, eq. 12]: does not keep the total, which 20 steps over 2,000 random
+                  ///< photons with fluxes of 0 to 2 change by 0.7 to 0.9%
 };
 
 /// How the place of a feature is chosen among candidates.
@@ -33,8 +33,8 @@ struct RelaxationOptions {
     double final_relaxation = 1.2; ///< λ_min of eq. 2, approached towards the last; > 0
     /// How much of its force a photon follows at the last iteration, coming down from 1 at the first; in (0, 1]. In
     /// the paper it is 1 throughout, and photons move one after another. Photons that all move at once then overshoot
-    /// for ever: low frequencies stay at -9.7 dB after 50 iterations, where the paper's order comes to -18.1 (a torus of
-    /// 2,000 photons); with 0.4 they come to -18.5.
+    /// for ever: low frequencies stay at -9.7 dB after 50 iterations, where the paper's order comes to -18.1 (a torus
+    /// of 2,000 photons); with 0.4 they come to -18.5.
     double final_step = 0.4;
 
     /// How many nearest photons the target of a photon's density is estimated from, 16 to 4096; 0 for none, as in the
@@ -55,8 +55,8 @@ struct RelaxationOptions {
     /// Features are also looked for in the flux of photons, its intensity and its colour.
     bool flux_features = true;
 
-    /// ρ of eq. 11: moves of this many radii (of the disc of K + 1 neighbours) are halved, longer ones damped; 0 leaves
-    /// them as they are.
+    /// ρ of eq. 11: moves of this many radii (of the disc of K + 1 neighbours) are halved, longer ones damped; 0
+    /// leaves them as they are.
     double rho = 0.3;
     FluxDiffusion flux_diffusion = FluxDiffusion::none; ///< eq. 12 and 13, once per iteration
 
@@ -68,9 +68,9 @@ struct RelaxationOptions {
     /// 5,000 random photons would go farther in 50 iterations. > 0; ours.
     double leash = 2;
 
-    /// Ours, for the least error of a map that is looked at with 20 neighbours: photons aim at the densities that the map
-    /// had, and are pushed by 12 neighbours without over-relaxation, whose cells show at such bandwidths. Look at it with
-    /// a kernel that fades smoothly (`BiweightKernel`).
+    /// Ours, for the least error of a map that is looked at with 20 neighbours: photons aim at the densities that the
+    /// map had, and are pushed by 12 neighbours without over-relaxation, whose cells show at such bandwidths. Look at
+    /// it with a kernel that fades smoothly (`BiweightKernel`).
     [[nodiscard]] static RelaxationOptions keeping_density() {
         RelaxationOptions options;
         options.neighbours = 12;

@@ -2,8 +2,8 @@
 /// @file  The copy of the photons that relaxation works on: in the leaf order of a tree, where neighbours lie together.
 #pragma once
 
-#include "nephroid/tree/point_tree.hpp"
 #include "nephroid/relaxation/photon_access.hpp"
+#include "nephroid/tree/point_tree.hpp"
 
 #include <algorithm>
 #include <array>

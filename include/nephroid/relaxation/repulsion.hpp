@@ -46,8 +46,8 @@ template <Vector3 V>
     return (reach / (distance + nothing) - distance / reach) * offset;
 }
 
-/// A force without its part along the unit normal [eq. 3]. The paper's basis u, v, of which u = n × (−n_x, n_y, −n_z)
-/// vanishes for n_y = 0, spans this plane where it spans any.
+/// A force without its part along the unit normal [eq. 3]. The paper's basis u, v, of which u = n × (−n_x, n_y,
+/// −n_z) vanishes for n_y = 0, spans this plane where it spans any.
 template <Vector3 V>
 [[nodiscard]] V in_tangent_plane(const V& force, const V& normal) {
     return force - dot(force, normal) * normal;

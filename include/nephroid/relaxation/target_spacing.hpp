@@ -56,10 +56,10 @@ private:
 
     static constexpr T most = T(8); ///< ratio of roots of densities of neighbours: beyond, one pilot is an accident
     static constexpr std::size_t fewest = 16; ///< photons, whose density says little
-    /// The share of held photons in a neighbourhood, by weight, from which on its pilot is not trusted at all. A straight
-    /// feature through the middle, in a band of 1.5 mean distances to each side, makes it 0.23: a quarter of the trust
-    /// is left. Measured: with 0.1 soft slopes that pass for features are evened out, and with no limit edges become 1.5
-    /// to 1.8 times as wide, with this one 1% wider.
+    /// The share of held photons in a neighbourhood, by weight, from which on its pilot is not trusted at all. A
+    /// straight feature through the middle, in a band of 1.5 mean distances to each side, makes it 0.23: a quarter of
+    /// the trust is left. Measured: with 0.1 soft slopes that pass for features are evened out, and with no limit edges
+    /// become 1.5 to 1.8 times as wide, with this one 1% wider.
     static constexpr T held_at_feature = T(0.3);
 
     [[nodiscard]] static Pilot pilot(std::span<const Neighbour<T>> crowd,

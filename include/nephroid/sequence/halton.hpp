@@ -58,8 +58,9 @@ template <std::uint32_t Base>
 inline constexpr auto halton_reversed_digits = [] {
     constexpr auto permutation = faure_permutation<Base>();
     std::array<std::uint16_t, halton_block_size(Base)> reversed{};
-    // With one digit more in front, the others move back by one: the table grows from itself. Few steps for each entry, as
-    // compilers take about a microsecond for each; the first digit's part comes last, as it is what the others are made of.
+    // With one digit more in front, the others move back by one: the table grows from itself. Few steps for each entry,
+    // as compilers take about a microsecond for each; the first digit's part comes last, as it is what the others are
+    // made of.
     for (std::size_t known = 1; known < reversed.size(); known *= Base) {
         for (std::size_t i = 0; i < known; ++i)
             reversed[i] = static_cast<std::uint16_t>(reversed[i] * Base);

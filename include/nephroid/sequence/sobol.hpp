@@ -80,7 +80,8 @@ inline constexpr auto sobol_tables = [] {
         const auto columns = sobol_matrix(dimension);
         for (std::size_t bit = 0; bit < 32; ++bit) {
             const std::uint32_t flips = reverse_bits32(columns[bit]);
-            // A value with this highest bit flips what it does without it, and this. (Few steps: compilers take long over each.)
+            // A value with this highest bit flips what it does without it, and this. (Few steps: compilers take long
+            // over each.)
             auto& table = tables[dimension][bit / 4];
             const std::size_t highest = std::size_t{1} << (bit % 4);
             for (std::size_t rest = 0; rest < highest; ++rest)

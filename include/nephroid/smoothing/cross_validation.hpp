@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT
-/// @file  One smoothing for all photons of a pass, chosen by comparing estimates from parts of them: where nothing is known
-///        of the light but its photons.
+/// @file  One smoothing for all photons of a pass, chosen by comparing estimates from parts of them: where nothing is
+///        known of the light but its photons.
 ///
 /// Let W be the picture from all photons at one smoothing, A and B those from either half of them with the same
-/// footprints, so that W = (A + B)/2, and A₀ and B₀ the halves at so small a smoothing that they are noisy but hardly
-/// biased. Then the sum over the vertices of W² − A B₀ − B A₀ is, but for a constant, the squared error of W on average,
-/// less 2 cov(A, B₀). Halves of random photons do not covary. Those of a sequence do, as each fills the other's
-/// gaps: with ρ the correlation that is left, the sum of (A − B)(A₀ − B₀) has 2 cov(A, B₀) as its share ρ/(1 − ρ), which
-/// is added. And ρ follows from how the noise falls with the number n of photons, as n^−β: ρ = 2^(1−β) − 1. Random ones
-/// have β = 1; of a stratified sequence it is measured, from quarters to halves of them: up to 2, with ρ = −1/2, where
-/// two numbers make a photon, and less where more do.
+/// footprints, so that W = (A + B)/2, and A₀ and B₀ the halves at so small a smoothing that they are noisy but
+/// hardly biased. Then the sum over the vertices of W² − A B₀ − B A₀ is, but for a constant, the squared error
+/// of W on average, less 2 cov(A, B₀). Halves of random photons do not covary. Those of a sequence do, as each fills
+/// the other's gaps: with ρ the correlation that is left, the sum of (A − B)(A₀ − B₀) has 2 cov(A, B₀)
+/// as its share ρ/(1 − ρ), which is added. And ρ follows from how the noise falls with the number n of
+/// photons, as n^−β: ρ = 2^(1−β) − 1. Random ones have β = 1; of a stratified sequence it is measured,
+/// from quarters to halves of them: up to 2, with ρ = −1/2, where two numbers make a photon, and less where more do.
 ///
-/// The error is least where its bias, as s⁴/N², and its variance, as s^−2β, balance: a pass of more photons than were
-/// compared takes an s that grows with their number as N^(1/(2 + β)).
+/// The error is least where its bias, as s⁴/N², and its variance, as s^−2β, balance: a pass of more photons than
+/// were compared takes an s that grows with their number as N^(1/(2 + β)).
 #pragma once
 
 #include "nephroid/sequence/halton.hpp"
 #include "nephroid/sequence/hash.hpp"
-#include "nephroid/splat/photon_splatter.hpp"
 #include "nephroid/smoothing/pilot.hpp"
+#include "nephroid/splat/photon_splatter.hpp"
 
 #include <algorithm>
 #include <array>
@@ -211,8 +211,8 @@ template <class Footprints, class Splatter, class Photon, class E>
 
 /// The smoothing that suits a pass best as a whole, for plain splats: what `PhotonPass::smoothing` takes.
 ///
-/// Second-order splatting chooses a footprint for each photon and asks for none of this, but for photons of lights whose
-/// samples say nothing of which ones are neighbours: for those `splat_caustics` does it by itself.
+/// Second-order splatting chooses a footprint for each photon and asks for none of this, but for photons of lights
+/// whose samples say nothing of which ones are neighbours: for those `splat_caustics` does it by itself.
 ///
 /// ```cpp
 /// pass.smoothing = nephroid::cross_validated_smoothing(scene, light, splatter, pass);
@@ -225,8 +225,9 @@ template <class Footprints, class Splatter, class Photon, class E>
 ///          The same for any number of threads, bit for bit
 /// Throws std::invalid_argument for zero photons.
 ///
-/// A vertex is taken to show what is estimated there. Where a renderer adds several up to one pixel, each with a part of
-/// the light (ghosts around a floor that repeats), the borders between the parts are taken for edges, and s is too small.
+/// A vertex is taken to show what is estimated there. Where a renderer adds several up to one pixel, each with a part
+/// of the light (ghosts around a floor that repeats), the borders between the parts are taken for edges, and s is too
+/// small.
 ///
 /// Cost: tracing those photons, and splatting them onto some 32,000 of the vertices with smoothings of 2.5 up to twice
 /// the one chosen: measured as one to four passes of 20,000 photons onto 512 x 512 vertices, and less than one of

@@ -2,11 +2,11 @@
 /// @file  The first photons of a pass, traced and kept until their neighbours have told how large they should be.
 #pragma once
 
-#include "nephroid/sequence/sequence.hpp"
+#include "nephroid/execution/executor.hpp"
 #include "nephroid/pass/coherent_order.hpp"
 #include "nephroid/pass/photon_pass.hpp"
+#include "nephroid/sequence/sequence.hpp"
 #include "nephroid/smoothing/second_order/second_order.hpp"
-#include "nephroid/execution/executor.hpp"
 #include "nephroid/transport/trail.hpp"
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 /// for any number of threads, without atomics or locks.
 #pragma once
 
-#include "nephroid/splat/splat_reach.hpp"
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/receiver/sink.hpp"
+#include "nephroid/splat/splat_reach.hpp"
 
 #include <algorithm>
 #include <array>

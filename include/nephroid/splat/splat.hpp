@@ -2,9 +2,9 @@
 /// @file  A photon made ready to be splatted: its footprint, filtered, bounded, and turned into a matrix.
 #pragma once
 
-#include "nephroid/footprint/smoothing.hpp"
 #include "nephroid/footprint/kernel.hpp"
 #include "nephroid/footprint/policies.hpp"
+#include "nephroid/footprint/smoothing.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
 #include "nephroid/transport/walk.hpp"
 #include "nephroid/vector/in_place.hpp"
@@ -75,23 +75,24 @@ struct SplatPolicies {
     /// How `splat_caustics` places and sizes footprints: SecondOrder, or FirstOrder.
     Order order{};
     /// Against topological bias: a vertex further from the photon's tangent plane than this many minor radii of the
-    /// footprint (and than the spacing of the vertices) does not receive. Larger lets long footprints bend further around
-    /// curved surfaces, and leak further through thin ones. [Frisvad et al. 2014, after eq. 12; the minor radius is
-    /// nephroid's, as a long footprint would reach far through a table top by its major one]
+    /// footprint (and than the spacing of the vertices) does not receive. Larger lets long footprints bend further
+    /// around curved surfaces, and leak further through thin ones. [Frisvad et al. 2014, after eq. 12; the minor radius
+    /// is nephroid's, as a long footprint would reach far through a table top by its major one]
     double normal_distance = 0.25;
 };
 
-/// One photon as the inner loop wants it: x is inside where |row_a · (x − centre)|² + |row_b · (x − centre)|² < 1 and
+/// One photon as the inner loop wants it: x is inside where |row_a · (x − centre)|² + |row_b · (x − centre)|² <
+/// 1 and
 /// |row_n · (x − centre)| < 1.
 template <Vector3 V, Flux F>
 struct Splat {
-    V centre;                ///< relative to the map's origin
-    V row_a, row_b;          ///< the filter matrix [Frisvad et al. 2014, eq. 12]
-    V row_n;                 ///< the normal over the largest normal distance, the third row of the matrix
-    V normal;                ///< unit, towards the side that the photon came from
-    V direction;             ///< of flight, unit
-    F peak;                  ///< flux per unit of the disk's area: times the kernel, an irradiance
-    Box<scalar_t<V>> box;    ///< tight about the ellipsoid, relative to the map's origin
+    V centre;             ///< relative to the map's origin
+    V row_a, row_b;       ///< the filter matrix [Frisvad et al. 2014, eq. 12]
+    V row_n;              ///< the normal over the largest normal distance, the third row of the matrix
+    V normal;             ///< unit, towards the side that the photon came from
+    V direction;          ///< of flight, unit
+    F peak;               ///< flux per unit of the disk's area: times the kernel, an irradiance
+    Box<scalar_t<V>> box; ///< tight about the ellipsoid, relative to the map's origin
 };
 
 /// The outcome of `make_splat`: a splat, or why there is none.
@@ -103,9 +104,10 @@ struct SplatOutcome {
 };
 
 /// Turns a photon's deposit into a splat onto a map.
-template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collapse, class Excess, class Shape, class Order>
+template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collapse, class Excess, class Shape,
+          class Order>
     requires Kernel<K, scalar_t<V>> && FiltersPixels<Filter> && FootprintPolicy<Collapse, V> &&
-             FootprintPolicy<Excess, V> && ShapesFootprint<Shape, Deposit<V, F, N>, V>
+        FootprintPolicy<Excess, V> && ShapesFootprint<Shape, Deposit<V, F, N>, V>
 [[nodiscard]] SplatOutcome<V, F> make_splat(const Deposit<V, F, N>& deposit, const EyePathMap<V>& map,
                                             const SplatPolicies<K, Filter, Collapse, Excess, Shape, Order>& policies) {
     using T = scalar_t<V>;
@@ -155,8 +157,10 @@ template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collaps
             hz = reach(t::z(half), t::z(deposit.normal));
     const T cx = t::x(centre), cy = t::y(centre), cz = t::z(centre);
     outcome.splat.emplace(InPlace{[&] {
-        return Splat<V, F>{centre, filter.row_a, filter.row_b, inverse_thickness * deposit.normal, deposit.normal,
-                           deposit.direction, peak, Box<T>{{cx - hx, cy - hy, cz - hz}, {cx + hx, cy + hy, cz + hz}}};
+        return Splat<V, F>{centre,         filter.row_a,
+                           filter.row_b,   inverse_thickness * deposit.normal,
+                           deposit.normal, deposit.direction,
+                           peak,           Box<T>{{cx - hx, cy - hy, cz - hz}, {cx + hx, cy + hy, cz + hz}}};
     }});
     return outcome;
 }

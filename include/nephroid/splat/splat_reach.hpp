@@ -32,8 +32,8 @@ public:
         const T dx = leaf.middle[0] - t::x(centre_), dy = leaf.middle[1] - t::y(centre_),
                 dz = leaf.middle[2] - t::z(centre_);
         const T hx = leaf.half[0], hy = leaf.half[1], hz = leaf.half[2];
-        // Every row is linear in place, and 0 at the centre: on the box it lies in middle ± reach, rounding included, as
-        // the terms for a thin footprint are large and cancel.
+        // Every row is linear in place, and 0 at the centre: on the box it lies in middle ± reach, rounding included,
+        // as the terms for a thin footprint are large and cancel.
         std::array<T, 4> least, most; // of its absolute value
 #pragma GCC unroll 1                  // else GCC unrolls it, and then does not vectorise it
         for (std::size_t row = 0; row < 4; ++row) {

@@ -25,8 +25,8 @@ inline constexpr std::size_t fate_count = 9;
 inline constexpr std::array<const char*, fate_count> fate_names = {
     "splatted", "unseen", "direct", "absorbed", "escaped", "terminated", "collapsed", "excessive", "invalid"};
 
-/// A number of photons and their flux, in the unit of flux_traits<F>::power. The flux is a compensated sum [Kahan 1965]:
-/// after 10⁹ photons it is as exact as after one (but under -ffast-math, which drops the compensation).
+/// A number of photons and their flux, in the unit of flux_traits<F>::power. The flux is a compensated sum [Kahan
+/// 1965]: after 10⁹ photons it is as exact as after one (but under -ffast-math, which drops the compensation).
 struct Tally {
     std::uint64_t photons = 0;
     double flux = 0;

@@ -75,9 +75,7 @@ template <Vector3 V>
 [[nodiscard]] scalar_t<V> rounding_error(const V& origin, scalar_t<V> distance, const V& position) {
     using T = scalar_t<V>;
     using t = vector_traits<V>;
-    const auto largest = [](const V& v) {
-        return (std::max)({abs(T(t::x(v))), abs(T(t::y(v))), abs(T(t::z(v)))});
-    };
+    const auto largest = [](const V& v) { return (std::max)({abs(T(t::x(v))), abs(T(t::y(v))), abs(T(t::z(v)))}); };
     return T(8) * std::numeric_limits<T>::epsilon() * (largest(origin) + largest(position) + abs(distance));
 }
 

@@ -13,13 +13,15 @@ enum class Event : unsigned char {
     deposit, ///< the surface is diffuse (or glossy): the photon is splatted here and ends
 };
 
-/// Normals are best left pointing out of the object, as the surface has them. A tracer that turns them to face every ray
-/// knows from its own "front face" whether the ray enters: dot(direction, normal) < 0 is then true on the way out too.
+/// Normals are best left pointing out of the object, as the surface has them. A tracer that turns them to face every
+/// ray knows from its own "front face" whether the ray enters: dot(direction, normal) < 0 is then true on the way out
+/// too.
 ///
 /// The answer of a scene's `scatter`. Your own type with these members will do as well; `eta` is only read for
 /// Event::refract, and a type may have a further member `medium` (the one that a refracted ray enters, for scenes
-/// with absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent). A type of a scene without
-/// glass does without `eta` and says so: `static constexpr bool refracts = false`. Then no refraction is compiled.
+/// with absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent). A type of a scene
+/// without glass does without `eta` and says so: `static constexpr bool refracts = false`. Then no refraction is
+/// compiled.
 ///
 /// ```cpp
 /// // Glass that reflects or refracts by chance, each with its Fresnel term over its probability: both weights are 1.

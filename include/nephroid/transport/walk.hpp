@@ -93,9 +93,13 @@ public:
 
     [[nodiscard]] Deposit<V, F, N> deposit(const H& hit) const {
         return [&]<std::size_t... I>(std::index_sequence<I...>) {
-            return Deposit<V, F, N>{photon_.position, facing(hit) * V(hit.geometric_normal), photon_.direction,
-                                    photon_.flux, {photon_.differential[I].d_position...}};
-        }(std::make_index_sequence<N>());
+            return Deposit<V, F, N>{photon_.position,
+                                    facing(hit) * V(hit.geometric_normal),
+                                    photon_.direction,
+                                    photon_.flux,
+                                    {photon_.differential[I].d_position...}};
+        }
+        (std::make_index_sequence<N>());
     }
 
     /// Multiplies the flux; what that takes is absorbed.
@@ -152,7 +156,8 @@ public:
             // By twice the error: once for the point that was hit, once for the next intersection's own rounding. Along
             // the ray, which so stays on its line, and only for what is left at low angles along the normal.
             const V normal = hit.geometric_normal;
-            const T cosine = dot(photon_.direction, normal), steepness = abs(cosine), height = T(2) * T(hit.position_error);
+            const T cosine = dot(photon_.direction, normal), steepness = abs(cosine),
+                    height = T(2) * T(hit.position_error);
             const T along = steepness > T(0.5) ? height / steepness : T(2) * height;
             const T rest = (std::max)(T(0), height - along * steepness);
             photon_.position = photon_.position + (along * photon_.direction + (cosine > T(0) ? rest : -rest) * normal);
@@ -209,7 +214,8 @@ private:
         for (std::size_t i = 0; i < N; ++i) {
             Tangent<V>& tangent = photon_.differential[i];
             const V d_shading = side * V(hit.curvature(tangent.d_position));
-            const V d_normal = d_shading - dot(normal, d_shading) * normal; // the normal in use may be the geometric one
+            const V d_normal =
+                d_shading - dot(normal, d_shading) * normal; // the normal in use may be the geometric one
             if constexpr (requires { turn.differentiate(d_normal, d_normal, T(scattering.d_eta[i])); })
                 tangent.d_direction = turn.differentiate(tangent.d_direction, d_normal, T(scattering.d_eta[i]));
             else
@@ -244,8 +250,9 @@ template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Trail 
 [[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, Photon<V, F, N>&& photon, Sampler& sampler,
                                                    const WalkLimits& limits, Statistics& account, Trail&& trail = {}) {
     using T = scalar_t<V>;
-    static_assert(Absorbs<S, V> || !requires { typename S::medium; },
-                  "nephroid::walk: the scene names a medium, but transmittance(medium, distance) is missing or not const");
+    static_assert(
+        Absorbs<S, V> || !requires { typename S::medium; },
+        "nephroid::walk: the scene names a medium, but transmittance(medium, distance) is missing or not const");
     detail::Walk<S, V, F, N> path(scene, photon, account);
     const auto ended = [&](Fate fate) {
         path.end(fate);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Building a kd-tree: nanoflann divides the points into thousands, and these are divided on in contiguous memory.
+/// @file  Building a kd-tree: nanoflann divides the points into thousands, and these are divided on in contiguous
+///        memory.
 #pragma once
 
 #include "nephroid/tree/tree_node.hpp"
@@ -140,8 +141,8 @@ private:
         return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
     }
 
-    /// Puts those of the lower half first, across the longest side; returns where the others begin. Many are parted in the
-    /// middle; the last few hundred where all leaves below will be as full as can be.
+    /// Puts those of the lower half first, across the longest side; returns where the others begin. Many are parted in
+    /// the middle; the last few hundred where all leaves below will be as full as can be.
     [[nodiscard]] std::size_t halve(std::size_t begin, std::size_t end, const Box<T>& box) {
         std::size_t axis = 0;
         for (std::size_t other = 1; other < 3; ++other)

@@ -6,11 +6,11 @@
 /// of small distances.
 #pragma once
 
+#include "nephroid/execution/executor.hpp"
 #include "nephroid/tree/build_tree.hpp"
 #include "nephroid/tree/nearest_points.hpp"
 #include "nephroid/tree/tree_node.hpp"
 #include "nephroid/tree/wide_tree.hpp"
-#include "nephroid/execution/executor.hpp"
 #include "nephroid/vector/algebra.hpp"
 #include "nephroid/vector/error.hpp"
 #include "nephroid/vector/text.hpp"
@@ -71,11 +71,11 @@ public:
     /// A world position relative to the origin.
     [[nodiscard]] V relative(const V& position) const { return position - origin_; }
 
-    /// Moves the points and keeps the tree's shape: every slot keeps its point, and the boxes are drawn tight about where
-    /// the points are now. Look-ups stay exact however far they moved, and slow down as leaves come to overlap.
+    /// Moves the points and keeps the tree's shape: every slot keeps its point, and the boxes are drawn tight about
+    /// where the points are now. Look-ups stay exact however far they moved, and slow down as leaves come to overlap.
     ///
-    /// @param moved  coordinates by slot, relative to the origin, finite; slots() for each axis, of which those that repeat
-    ///               a point are not read. Holds the coordinates from before afterwards.
+    /// @param moved  coordinates by slot, relative to the origin, finite; slots() for each axis, of which those that
+    ///               repeat a point are not read. Holds the coordinates from before afterwards.
     template <class E>
         requires Executor<E&>
     void refit(std::array<std::vector<T>, 3>& moved, E& executor) {
@@ -124,12 +124,14 @@ public:
             distance2[i] = square(px[i] - cx) + square(py[i] - cy) + square(pz[i] - cz);
     }
 
-    /// The points nearest to a place (relative to the origin), in no particular order. None to a place that is no number.
+    /// The points nearest to a place (relative to the origin), in no particular order. None to a place that is no
+    /// number.
     ///
     /// @param found   room for as many as are wanted
     /// @param limit2  only points nearer than the root of this count
     /// @param accept  accept(slot): whether a point counts at all; asked of points that lie near enough, and of their
-    ///                neighbours in the leaf order, so that it can be vectorised; must not look up nearest points itself
+    ///                neighbours in the leaf order, so that it can be vectorised; must not look up nearest points
+    ///                itself
     /// @return  how many there are: found.size(), or all that count if there are fewer
     template <class Accept = AcceptAll>
     std::size_t nearest(const V& relative_position, std::span<Neighbour<T>> found,

@@ -28,8 +28,8 @@ template <Scalar T>
     return count;
 }
 
-/// What parts the smallest values from the others. By interpolation, in loops without branches that are vectorised: fast
-/// where values are spread evenly, as squared distances on a surface are.
+/// What parts the smallest values from the others. By interpolation, in loops without branches that are vectorised:
+/// fast where values are spread evenly, as squared distances on a surface are.
 ///
 /// @param values  at least 0; none is a NaN
 /// @param wanted  how many, at least: 1 to values.size()

@@ -10,8 +10,8 @@
 
 namespace nephroid::detail {
 
-/// The same tree with eight children a node, whose boxes lie together coordinate by coordinate: they are tested in a few
-/// vector instructions, without a branch that goes either way at every node of the binary tree.
+/// The same tree with eight children a node, whose boxes lie together coordinate by coordinate: they are tested in a
+/// few vector instructions, without a branch that goes either way at every node of the binary tree.
 template <Scalar T>
 class WideTree {
 public:

@@ -16,7 +16,9 @@ namespace nephroid {
 // Traits with a member `native_operators = true` take them out of the running.
 namespace detail {
 template <class V>
-concept UsesOurOperators = Vector3<V> && !requires { requires vector_traits<V>::native_operators; };
+concept UsesOurOperators = Vector3<V> && !requires {
+    requires vector_traits<V>::native_operators;
+};
 } // namespace detail
 
 template <detail::UsesOurOperators V>
@@ -93,7 +95,7 @@ struct Length {
 struct Normalize {
     template <Vector3 V>
     [[nodiscard]] V operator()(const V& a) const {
-        return scalar_t<V>(1) / Length{}(a) * a;
+        return scalar_t<V>(1) / Length{}(a)*a;
     }
 };
 
@@ -124,11 +126,11 @@ struct AllFinite {
 };
 } // namespace detail
 
-inline constexpr detail::Dot dot{};             ///< a · b
-inline constexpr detail::Cross cross{};         ///< a × b, each component free of cancellation
-inline constexpr detail::Length2 length2{};     ///< |a|²
-inline constexpr detail::Length length{};       ///< |a|
-inline constexpr detail::Normalize normalize{}; ///< a / |a|; a must not be zero
+inline constexpr detail::Dot dot{};                            ///< a · b
+inline constexpr detail::Cross cross{};                        ///< a × b, each component free of cancellation
+inline constexpr detail::Length2 length2{};                    ///< |a|²
+inline constexpr detail::Length length{};                      ///< |a|
+inline constexpr detail::Normalize normalize{};                ///< a / |a|; a must not be zero
 inline constexpr detail::LargestComponent largest_component{}; ///< the largest |aᵢ|
 /// a / |a| for a of any length but zero, also where |a|² would underflow or overflow.
 inline constexpr detail::DirectionOf direction_of{};

@@ -12,9 +12,9 @@
 
 namespace nephroid {
 
-/// value + Σ derivative(i) εᵢ with εᵢ εⱼ = 0: forward automatic differentiation. The library runs on it as on any scalar,
-/// so that a whole caustic can be differentiated by parameters of the scene, and a photon's tangents by where it was
-/// emitted (smoothing/second_order/exact_path_derivatives.hpp). Comparisons look at the value alone.
+/// value + Σ derivative(i) εᵢ with εᵢ εⱼ = 0: forward automatic differentiation. The library runs on it as on
+/// any scalar, so that a whole caustic can be differentiated by parameters of the scene, and a photon's tangents by
+/// where it was emitted (smoothing/second_order/exact_path_derivatives.hpp). Comparisons look at the value alone.
 ///
 /// Where a function has no derivative (the root at 0) it is 0.
 ///

@@ -27,8 +27,8 @@ public:
         }
     }
 
-    /// The first n unknowns, the others left out of the equations, by Cholesky's decomposition of the matrix scaled to a
-    /// unit diagonal.
+    /// The first n unknowns, the others left out of the equations, by Cholesky's decomposition of the matrix scaled to
+    /// a unit diagonal.
     ///
     /// @return  whether the rows determine them; `x` is undefined if not, and 0 from n on
     [[nodiscard]] bool solve(std::size_t n, std::array<Value, N>& x) const {

@@ -14,9 +14,9 @@ namespace nephroid {
 
 /// Opens the library to a scalar that is not a built-in floating-point type (a dual number, a wider float).
 /// Specialise to true; the type then needs + − * /, comparisons, construction from arithmetic types and explicit
-/// conversion to them, std::numeric_limits, and sqrt, abs, sin, cos, isfinite found by argument-dependent look-up (atan2
-/// where footprints are bounded, exp for the Gaussian kernel). Comparisons decide which way a photon goes; a dual number
-/// compares its value alone. vector/dual.hpp is one, through which a whole caustic is differentiated.
+/// conversion to them, std::numeric_limits, and sqrt, abs, sin, cos, isfinite found by argument-dependent look-up
+/// (atan2 where footprints are bounded, exp for the Gaussian kernel). Comparisons decide which way a photon goes; a
+/// dual number compares its value alone. vector/dual.hpp is one, through which a whole caustic is differentiated.
 template <class T>
 inline constexpr bool is_scalar = std::is_floating_point_v<T>;
 

@@ -48,7 +48,8 @@ template <Scalar T>
     if constexpr (std::is_same_v<T, float>)
         return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) & (0u - std::uint32_t(condition)));
     else if constexpr (std::is_same_v<T, double>)
-        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & (std::uint64_t(0) - std::uint64_t(condition)));
+        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) &
+                                     (std::uint64_t(0) - std::uint64_t(condition)));
     else
         return condition ? value : T(0);
 }

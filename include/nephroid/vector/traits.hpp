@@ -23,13 +23,15 @@ namespace nephroid {
 ///
 /// That is all: no operator is asked for (algebra.hpp says when a type's own are used), and the products are computed
 /// from the components. A type whose operators are templates that would take anything may be ambiguous with the
-/// library's; `static constexpr bool native_operators = true;` in its traits then leaves all four to the type. The primary
-/// template stays undefined, so that a foreign type makes a concept answer "no" instead of failing inside.
+/// library's; `static constexpr bool native_operators = true;` in its traits then leaves all four to the type. The
+/// primary template stays undefined, so that a foreign type makes a concept answer "no" instead of failing inside.
 template <class V>
 struct vector_traits;
 
 template <class V>
-concept HasVectorTraits = requires { sizeof(vector_traits<V>); };
+concept HasVectorTraits = requires {
+    sizeof(vector_traits<V>);
+};
 
 template <class V>
 concept HasScalar = HasVectorTraits<V> && Scalar<typename vector_traits<V>::scalar>;
@@ -55,8 +57,9 @@ namespace detail {
 template <class V>
 consteval bool explain_vector() {
     static_assert(std::copyable<V>, "nephroid: a vector must be copyable, and not const or a reference");
-    static_assert(HasVectorTraits<V>, "nephroid: nephroid::vector_traits<V> is missing for this vector type: specialise "
-                                      "it (vector/traits.hpp), or include nephroid/vector/glm.hpp for GLM's");
+    static_assert(HasVectorTraits<V>,
+                  "nephroid: nephroid::vector_traits<V> is missing for this vector type: specialise "
+                  "it (vector/traits.hpp), or include nephroid/vector/glm.hpp for GLM's");
     static_assert(HasScalar<V>, "nephroid: vector_traits<V>::scalar is missing or no scalar (vector/scalar.hpp)");
     static_assert(HasComponents<V>, "nephroid: vector_traits<V>::x(v), y(v) or z(v) is missing or not a scalar");
     static_assert(MakesFromComponents<V>, "nephroid: vector_traits<V>::make(x, y, z) is missing or makes no vector");

@@ -86,9 +86,9 @@ TEST_CASE("disk light: aiming leaves the flux through the target unchanged and h
     }
 }
 
-// Footprints at emission: π/4 |Dx|² adds up to s² area, and π/4 |Dω|² on average to s² times the solid angle. The mean
-// of 1/p over a density p is the measure of its domain, here the hemisphere's 2π; its variance is infinite, hence the
-// strata.
+// Footprints at emission: π/4 |Dx|² adds up to s² area, and π/4 |Dω|² on average to s² times the solid angle.
+// The mean of 1/p over a density p is the measure of its domain, here the hemisphere's 2π; its variance is infinite,
+// hence the strata.
 TEST_CASE("disk light: footprints cover the area and the solid angle") {
     const Disk<double> light = overhead<double>(std::nullopt);
     const int n = 400;

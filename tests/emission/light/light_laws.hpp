@@ -5,8 +5,8 @@
 #include "emission/statistics.hpp"
 #include "nephroid/differential/transfer.hpp"
 #include "nephroid/emission/light.hpp"
-#include "nephroid/sequence/random.hpp"
 #include "nephroid/emission/target.hpp"
+#include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

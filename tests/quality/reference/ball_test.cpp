@@ -95,14 +95,16 @@ TEST_CASE("reference ball: two million refracted rays land as computed" * doctes
     }
 }
 
-// Rings of light, each landing on a circle of which the pixel holds a known arc. Where a circle begins to touch a side the
-// arc grows like a square root, so n rings are wrong by n^(-3/2) of the pixel's own share of them: 1e-6 for 1e6 rings.
+// Rings of light, each landing on a circle of which the pixel holds a known arc. Where a circle begins to touch a side
+// the arc grows like a square root, so n rings are wrong by n^(-3/2) of the pixel's own share of them: 1e-6 for 1e6
+// rings.
 TEST_CASE("reference ball: single pixels agree with a sum over circles on the floor") {
     for (const Ball& b : {collimated, point_fresnel}) {
         const detail::BallMap map(b);
         const double f = map.fold_radius();
-        const Film films[] = {{-0.01, 0.02, -0.015, 0.01, 1, 1}, {0, 0.01, 0, 0.01, 1, 1},     {f - 0.01, f + 0.01, 0, 0.02, 1, 1},
-                              {f - 0.03, f, -0.04, 0.01, 1, 1},  {0.3, 0.33, -0.4, -0.37, 1, 1}, {-1, 1, -1.2, 1.7, 1, 1}};
+        const Film films[] = {{-0.01, 0.02, -0.015, 0.01, 1, 1},   {0, 0.01, 0, 0.01, 1, 1},
+                              {f - 0.01, f + 0.01, 0, 0.02, 1, 1}, {f - 0.03, f, -0.04, 0.01, 1, 1},
+                              {0.3, 0.33, -0.4, -0.37, 1, 1},      {-1, 1, -1.2, 1.7, 1, 1}};
         for (const Film& film : films) {
             constexpr int n = 200'000;
             double sum = 0;
@@ -123,8 +125,9 @@ TEST_CASE("reference ball: single pixels agree with a sum over circles on the fl
 // A pixel's flux is a difference of fluxes of order 1 over angles of order 0.01: 1e-14 of them are 1e-12 of it.
 TEST_CASE("reference ball: a pixel is the mean of the pixels it is cut into, on any film") {
     for (const Ball& b : {collimated, collimated_fresnel, point, point_fresnel})
-        for (const Film& film : {Film{-0.5, 0.5, -0.5, 0.5, 32, 32}, Film{-0.5, 0.5, -0.5, 0.5, 33, 33}, Film{-1.7, 0.4, 0.2, 2.3, 20, 31},
-                                 Film{-0.06, 0.06, 0.04, 0.07, 16, 16}, Film{-1e-3, 1e-3, -1e-3, 1e-3, 9, 8}}) {
+        for (const Film& film :
+             {Film{-0.5, 0.5, -0.5, 0.5, 32, 32}, Film{-0.5, 0.5, -0.5, 0.5, 33, 33}, Film{-1.7, 0.4, 0.2, 2.3, 20, 31},
+              Film{-0.06, 0.06, 0.04, 0.07, 16, 16}, Film{-1e-3, 1e-3, -1e-3, 1e-3, 9, 8}}) {
             const Film fine{film.x_min, film.x_max, film.y_min, film.y_max, 3 * film.width, 3 * film.height};
             CHECK(worst_difference(averaged(ball(b, fine), fine, 3), ball(b, film)) < 1e-9);
         }

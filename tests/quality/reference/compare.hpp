@@ -31,7 +31,8 @@ namespace nephroid::reference {
 
 /// Adds `flux` landing at (x, y) to the pixel there, if there is one, as irradiance.
 inline void add_flux(Image& image, const Film& film, double x, double y, double flux) {
-    const double i = std::floor((x - film.x_min) / film.pixel_width()), j = std::floor((y - film.y_min) / film.pixel_height());
+    const double i = std::floor((x - film.x_min) / film.pixel_width()),
+                 j = std::floor((y - film.y_min) / film.pixel_height());
     if (i >= 0 && j >= 0 && i < film.width && j < film.height)
         image[static_cast<std::size_t>(j) * static_cast<std::size_t>(film.width) + static_cast<std::size_t>(i)] +=
             flux / (film.pixel_width() * film.pixel_height());
@@ -56,8 +57,9 @@ struct Vector {
     friend double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
 
-/// Snell's law for the unit direction `d`, the unit normal `n` against it, and the ratio `eta` of the indices before and
-/// behind; multiplies `flux` by the unpolarised transmittance, written with the refracted angle (not as in fresnel.hpp).
+/// Snell's law for the unit direction `d`, the unit normal `n` against it, and the ratio `eta` of the indices before
+/// and behind; multiplies `flux` by the unpolarised transmittance, written with the refracted angle (not as in
+/// fresnel.hpp).
 [[nodiscard]] inline Vector refract(Vector d, Vector n, double eta, double& flux) {
     const double i = std::acos(-dot(d, n)), t = std::asin(eta * std::sin(i));
     if (i > 1e-6) {

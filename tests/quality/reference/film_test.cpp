@@ -28,27 +28,57 @@ std::string message_of(const F& f) {
     return "";
 }
 
-bool starts_with(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool starts_with(const std::string& text, const std::string& start) {
+    return text.compare(0, start.size(), start) == 0;
+}
 
 } // namespace
 
 TEST_CASE("reference: a film that is no film is refused with the function's and the value's name") {
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-    CHECK(starts_with(message_of([] { (void)wave({}, {0, 1, 0, 1, 0, 4}); }), "nephroid::reference::wave: film.width is 0, "));
-    CHECK(starts_with(message_of([] { (void)ring({}, {0, 1, 0, 1, 4, -3}); }), "nephroid::reference::ring: film.height is -3, "));
-    CHECK(starts_with(message_of([] { (void)ball({}, {1, 1, 0, 1, 4, 4}); }), "nephroid::reference::ball: film.x_max is 1, "));
-    CHECK(starts_with(message_of([] { (void)ball({}, {0, 1, 3, 1, 4, 4}); }), "nephroid::reference::ball: film.y_max is 1, "));
-    CHECK(starts_with(message_of([=] { (void)wave({}, {nan, 1, 0, 1, 4, 4}); }), "nephroid::reference::wave: film.x_min is nan"));
-    CHECK(starts_with(message_of([=] { (void)wave({}, {0, inf, 0, 1, 4, 4}); }), "nephroid::reference::wave: film.x_max is inf"));
-    CHECK(starts_with(message_of([=] { (void)ring({}, {0, 1, -inf, 1, 4, 4}); }), "nephroid::reference::ring: film.y_min is -inf"));
-    CHECK(starts_with(message_of([] { (void)wave({}, {0, 1, 0, 1, 65537, 4}); }), "nephroid::reference::wave: film.width is 65537"));
+    CHECK(starts_with(message_of([] {
+                          (void)wave({}, {0, 1, 0, 1, 0, 4});
+                      }),
+                      "nephroid::reference::wave: film.width is 0, "));
+    CHECK(starts_with(message_of([] {
+                          (void)ring({}, {0, 1, 0, 1, 4, -3});
+                      }),
+                      "nephroid::reference::ring: film.height is -3, "));
+    CHECK(starts_with(message_of([] {
+                          (void)ball({}, {1, 1, 0, 1, 4, 4});
+                      }),
+                      "nephroid::reference::ball: film.x_max is 1, "));
+    CHECK(starts_with(message_of([] {
+                          (void)ball({}, {0, 1, 3, 1, 4, 4});
+                      }),
+                      "nephroid::reference::ball: film.y_max is 1, "));
+    CHECK(starts_with(message_of([=] {
+                          (void)wave({}, {nan, 1, 0, 1, 4, 4});
+                      }),
+                      "nephroid::reference::wave: film.x_min is nan"));
+    CHECK(starts_with(message_of([=] {
+                          (void)wave({}, {0, inf, 0, 1, 4, 4});
+                      }),
+                      "nephroid::reference::wave: film.x_max is inf"));
+    CHECK(starts_with(message_of([=] {
+                          (void)ring({}, {0, 1, -inf, 1, 4, 4});
+                      }),
+                      "nephroid::reference::ring: film.y_min is -inf"));
+    CHECK(starts_with(message_of([] {
+                          (void)wave({}, {0, 1, 0, 1, 65537, 4});
+                      }),
+                      "nephroid::reference::wave: film.width is 65537"));
 }
 
 TEST_CASE("reference: a scene out of range is refused with the value's name") {
-    CHECK(starts_with(message_of([] { (void)wave({.amplitude = -0.01}, {}); }), "nephroid::reference::wave: amplitude is -0.01"));
-    CHECK(starts_with(message_of([] { (void)wave_mean({.amplitude = 0.2}); }), "nephroid::reference::wave: amplitude is 0.2"));
-    CHECK(starts_with(message_of([] { (void)ring({static_cast<Reflections>(7)}, {}); }), "nephroid::reference::ring: reflections is 7"));
-    CHECK(starts_with(message_of([] { (void)ball({static_cast<BallLight>(7)}, {}); }), "nephroid::reference::ball: source is 7"));
+    CHECK(starts_with(message_of([] { (void)wave({.amplitude = -0.01}, {}); }),
+                      "nephroid::reference::wave: amplitude is -0.01"));
+    CHECK(starts_with(message_of([] { (void)wave_mean({.amplitude = 0.2}); }),
+                      "nephroid::reference::wave: amplitude is 0.2"));
+    CHECK(starts_with(message_of([] { (void)ring({static_cast<Reflections>(7)}, {}); }),
+                      "nephroid::reference::ring: reflections is 7"));
+    CHECK(starts_with(message_of([] { (void)ball({static_cast<BallLight>(7)}, {}); }),
+                      "nephroid::reference::ball: source is 7"));
     CHECK(starts_with(message_of([] { (void)ball_flux({}, -1); }), "nephroid::reference::ball_flux: radius is -1"));
 }
 
@@ -63,7 +93,8 @@ TEST_CASE("reference: Gauss-Legendre quadrature with N nodes is exact up to degr
     CHECK(std::abs(detail::integrate<4>(power(8), 1, 2) - 511.0 / 9) > 1e-7);
     CHECK(std::abs(detail::integrate<10>(power(19), 0, 1) - 1.0 / 20) < 1e-15);
     CHECK(std::abs(detail::integrate<16>(power(31), 0, 1) - 1.0 / 32) < 1e-15);
-    CHECK(std::abs(detail::integrate_panels<4>([](double x) { return std::exp(x); }, 3, 0, 0.1) - (1 - std::exp(3.0))) < 1e-12);
+    CHECK(std::abs(detail::integrate_panels<4>([](double x) { return std::exp(x); }, 3, 0, 0.1) - (1 - std::exp(3.0))) <
+          1e-12);
 }
 
 TEST_CASE("reference: a Chebyshev polynomial reproduces an exponential") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "quality/reference/compare.hpp"
 #include "nephroid/quality/reference/ring.hpp"
+#include "quality/reference/compare.hpp"
 
 #include <doctest/doctest.h>
 
@@ -52,8 +52,8 @@ TEST_CASE("reference ring: no light lands outside the half circle") {
     CHECK(mean(ring(any, {0.72, 1, 0.72, 1, 8, 8})) == 0);
 }
 
-// Two million rays over the 1.8 x 2 of the beam: 17000 land on a pixel of 1/8 x 1/8 at irradiance 1, of which a few hundred
-// near its outline in the worst case, in practice 10 times fewer; the least pixels get a tenth of that.
+// Two million rays over the 1.8 x 2 of the beam: 17000 land on a pixel of 1/8 x 1/8 at irradiance 1, of which a few
+// hundred near its outline in the worst case, in practice 10 times fewer; the least pixels get a tenth of that.
 TEST_CASE("reference ring: two million traced rays land as computed") {
     const Film film{0, 1, -1, 1, 8, 16};
     const double e = 35 * std::numbers::pi / 180;
@@ -62,20 +62,24 @@ TEST_CASE("reference ring: two million traced rays land as computed") {
         constexpr int n = 2'000'000;
         for (int i = 0; i < n; ++i) {
             const LatticePoint p(i);
-            trace({1.8 * p.u - 0.8, 2 * p.v - 1, 0.5}, {std::cos(e), 0, -std::sin(e)}, 3.6 / n, r.reflections, image, film);
+            trace({1.8 * p.u - 0.8, 2 * p.v - 1, 0.5}, {std::cos(e), 0, -std::sin(e)}, 3.6 / n, r.reflections, image,
+                  film);
         }
         CHECK(std::abs(mean(image) * 2 - ring_flux(r)) < 1e-3);
         CHECK(worst_difference(image, ring(r, film), 0.1) < 0.015);
     }
 }
 
-// The midpoint rule in phi errs by about (h / width)^2 / 12 at each of some ten kinks, a chord sweeping over the pixel within
-// width = 0.01 or more: h = 1.6e-6 leaves 2e-8. Where the chord lies in the pixel's side its length jumps: h / width.
+// The midpoint rule in phi errs by about (h / width)^2 / 12 at each of some ten kinks, a chord sweeping over the pixel
+// within width = 0.01 or more: h = 1.6e-6 leaves 2e-8. Where the chord lies in the pixel's side its length jumps: h /
+// width.
 TEST_CASE("reference ring: single pixels agree with a dense sum over the mirror") {
     const double s = 0.01;
-    struct Corner { double x, y; };
-    for (const Corner& c : {Corner{0.5, 0.1}, Corner{0.69, -0.11}, Corner{0.8, 0.3}, Corner{0.501, -0.003}, Corner{0.707, 0.5},
-                            Corner{0.96, 0.2}, Corner{0.2, 0.97}}) {
+    struct Corner {
+        double x, y;
+    };
+    for (const Corner& c : {Corner{0.5, 0.1}, Corner{0.69, -0.11}, Corner{0.8, 0.3}, Corner{0.501, -0.003},
+                            Corner{0.707, 0.5}, Corner{0.96, 0.2}, Corner{0.2, 0.97}}) {
         constexpr int n = 2'000'000;
         double sum = 0;
         for (int i = 0; i < n; ++i) {
@@ -97,8 +101,9 @@ TEST_CASE("reference ring: a pixel is the mean of the pixels it is cut into, on 
         for (const Film& film : {whole(24, 24), Film{0.1, 0.9, -0.4, 0.4, 40, 40}, Film{0.03, 0.57, -0.94, 0.11, 9, 33},
                                  Film{0.48, 0.52, -0.02, 0.02, 16, 16}, Film{0.45, 0.55, 0.85, 0.9, 8, 8}}) {
             const Film fine{film.x_min, film.x_max, film.y_min, film.y_max, 3 * film.width, 3 * film.height};
-            // Arcs stand in for chords within 1/2000 of a pixel's side from the mirror, others for each size of pixel. What they
-            // misplace is a small part of the 1/2000 that they bring to a pixel, but for pixels that hardly reach into the light.
+            // Arcs stand in for chords within 1/2000 of a pixel's side from the mirror, others for each size of pixel.
+            // What they misplace is a small part of the 1/2000 that they bring to a pixel, but for pixels that hardly
+            // reach into the light.
             const double tolerance = r.reflections == Reflections::one ? 1e-9 : 2e-5;
             CHECK(worst_difference(averaged(ring(r, fine), fine, 3), ring(r, film)) < tolerance);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "quality/reference/compare.hpp"
 #include "nephroid/quality/reference/wave.hpp"
+#include "quality/reference/compare.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,7 +13,8 @@ constexpr Wave prefocal{.amplitude = 0.012, .fresnel = false}, prefocal_fresnel{
 
 /// Where the light that enters above (x, y) lands: three-dimensional, by Snell's law for vectors.
 Vector land(const Wave& wave, double x, double y, double& flux) {
-    const double phase = 2 * std::numbers::pi * (2 * x + y), slope = 2 * std::numbers::pi * wave.amplitude * std::cos(phase);
+    const double phase = 2 * std::numbers::pi * (2 * x + y),
+                 slope = 2 * std::numbers::pi * wave.amplitude * std::cos(phase);
     const Vector tilted{-2 * slope, -slope, 1};
     const double z = 1 + wave.amplitude * std::sin(phase);
     double passed = 1;
@@ -48,8 +49,8 @@ TEST_CASE("reference wave: a still surface lights the floor evenly") {
         CHECK(std::abs(pixel - normal) < 1e-12);
 }
 
-// A pixel's share of N evenly spread rays is off by those near its outline, of the order of sqrt(N) in the worst case, here
-// 1000 of the 15625 per pixel and in practice 20 times fewer.
+// A pixel's share of N evenly spread rays is off by those near its outline, of the order of sqrt(N) in the worst case,
+// here 1000 of the 15625 per pixel and in practice 20 times fewer.
 TEST_CASE("reference wave: a million refracted rays land as computed") {
     const Film film{0, 1, 0, 1, 8, 8};
     for (const Wave& w : {focused, focused_fresnel, prefocal_fresnel}) {
@@ -65,8 +66,8 @@ TEST_CASE("reference wave: a million refracted rays land as computed") {
     }
 }
 
-// The trapezium rule over a period: kinks at h = 1e-6 in a density that rises over 0.01 cost (h/0.01)^2 / 12 = 1e-9 at most,
-// but where the map folds, dt = sqrt(0.01 / 40), less.
+// The trapezium rule over a period: kinks at h = 1e-6 in a density that rises over 0.01 cost (h/0.01)^2 / 12 = 1e-9 at
+// most, but where the map folds, dt = sqrt(0.01 / 40), less.
 TEST_CASE("reference wave: single pixels agree with a dense sum over the surface") {
     const Film film{0.3, 0.31, 0.2, 0.22, 1, 1}; // 2x + y spans 0.8 to 0.84
     for (const Wave& w : {focused_fresnel, prefocal})
@@ -87,11 +88,12 @@ TEST_CASE("reference wave: single pixels agree with a dense sum over the surface
         }
 }
 
-// A pixel is a quotient of differences of 2x + y, which carry about 2e-16: over a pixel's 1/96 that is 2e-14, and 10 times
-// that at a fold.
+// A pixel is a quotient of differences of 2x + y, which carry about 2e-16: over a pixel's 1/96 that is 2e-14, and 10
+// times that at a fold.
 TEST_CASE("reference wave: a pixel is the mean of the pixels it is cut into, on any film") {
     for (const Wave& w : {focused, focused_fresnel, prefocal, Wave{.amplitude = 0.1, .fresnel = true}})
-        for (const Film& film : {Film{0, 1, 0, 1, 32, 32}, Film{-0.31, 1.77, 0.2, 0.9, 20, 31}, Film{0, 20, 0, 30, 4, 5}}) {
+        for (const Film& film :
+             {Film{0, 1, 0, 1, 32, 32}, Film{-0.31, 1.77, 0.2, 0.9, 20, 31}, Film{0, 20, 0, 30, 4, 5}}) {
             const Film fine{film.x_min, film.x_max, film.y_min, film.y_max, 3 * film.width, 3 * film.height};
             CHECK(worst_difference(averaged(wave(w, fine), fine, 3), wave(w, film)) < 2e-12);
         }

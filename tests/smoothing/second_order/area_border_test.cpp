@@ -10,7 +10,8 @@
 using namespace nephroid;
 using tests::area_samples;
 
-// 6^4 cells of 16 photons, 1296 of them about a cell. Means and shares of so many vary by 1.5/sqrt(1296/4) at most: 0.08.
+// 6^4 cells of 16 photons, 1296 of them about a cell. Means and shares of so many vary by 1.5/sqrt(1296/4) at most:
+// 0.08.
 TEST_CASE("area border: a plane across the domain is found where it lies") {
     const auto all = area_samples<HaltonSequence>(6 * 6 * 6 * 6 * 16);
     const AreaCells cells(all, {6, 6, 6, 6});

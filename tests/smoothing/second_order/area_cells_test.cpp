@@ -48,7 +48,8 @@ TEST_CASE("area cells: numbers that matter more are split finer") {
     CHECK(AreaCells::counts_for(0, {1, 1, 1, 1}) == AreaCells::Place{1, 1, 1, 1});
 }
 
-// Multilinear weights make a linear function of the middles' places, and its slopes, wherever they do not end at a border.
+// Multilinear weights make a linear function of the middles' places, and its slopes, wherever they do not end at a
+// border.
 TEST_CASE("area cells: nodes interpolate what is linear") {
     const AreaCells cells({}, {4, 1, 5, 2});
     const AreaSample slope{2, 0, -3, 0.5};

@@ -4,8 +4,8 @@
 #include "smoothing/second_order/area_maps.hpp"
 #include "support/space.hpp"
 
-#include "nephroid/smoothing/second_order/second_order.hpp"
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/smoothing/second_order/second_order.hpp"
 
 #include <doctest/doctest.h>
 
@@ -53,8 +53,8 @@ using D = glm::dvec3;
     return SecondOrderFootprints<D>(std::span<const AreaPhoton>(pilot), options, executor);
 }
 
-/// The mean of exp(−(x − 1)²/(2 · 0.05)) over a splat of the biweight: along x its profile is 16/(5π) (1 − z²)^(5/2), and
-/// with z = cos θ the trapezoidal rule is exact for polynomials of degree 25.
+/// The mean of exp(−(x − 1)²/(2 · 0.05)) over a splat of the biweight: along x its profile is 16/(5π) (1 −
+/// z²)^(5/2), and with z = cos θ the trapezoidal rule is exact for polynomials of degree 25.
 [[nodiscard]] double seen(double centre, double radius) {
     constexpr int n = 32;
     double sum = 0, weights = 0;
@@ -98,9 +98,9 @@ struct Bias {
 
 } // namespace
 
-// The derivation in area_field.hpp: the bias is ½ ∂² of m₂ k² ∫ |t_x|² δ = 8π x^(3/2) m₂ k², so 3π/8 k² x^(−1/2) against
-// an irradiance of 2π x^(1/2), over the window g = exp(−10 (x − 1)²), once each is weighted with it. A shift leaves k⁴ and
-// k⁶ terms.
+// The derivation in area_field.hpp: the bias is ½ ∂² of m₂ k² ∫ |t_x|² δ = 8π x^(3/2) m₂ k², so 3π/8
+// k² x^(−1/2) against an irradiance of 2π x^(1/2), over the window g = exp(−10 (x − 1)²), once each is
+// weighted with it. A shift leaves k⁴ and k⁶ terms.
 TEST_CASE("area field: the bias falls with the fourth power of the smoothing and not with its square") {
     double expected = 0, light = 0;
     for (double x = 5e-4; x < 3; x += 1e-3) {
@@ -120,7 +120,8 @@ TEST_CASE("area field: the bias falls with the fourth power of the smoothing and
     CHECK(std::abs(narrow.second) < std::abs(narrow.first) / 20);
 }
 
-// Second derivatives are constant, so that fits have nothing to err about but rounding, whatever cells they are made in.
+// Second derivatives are constant, so that fits have nothing to err about but rounding, whatever cells they are made
+// in.
 TEST_CASE("area field: second derivatives along the tangents are those of the map") {
     for (const double turn : {0.0, 0.7}) {
         const AreaLamp lamp{.width = 1, .unit = 0.01, .turn = turn};

@@ -78,8 +78,8 @@ struct AreaLamp {
     }
 };
 
-/// F = (p_x² + p_y² + d_x², d_y): light from a sphere of emission points meets at each point of the floor, so that the
-/// irradiance is 2π sqrt(x), and a constant along y. Its borders are far.
+/// F = (p_x² + p_y² + d_x², d_y): light from a sphere of emission points meets at each point of the floor, so that
+/// the irradiance is 2π sqrt(x), and a constant along y. Its borders are far.
 [[nodiscard]] inline AreaLanding spheres(const AreaSample& u) {
     return {{u[0] * u[0] + u[1] * u[1] + u[2] * u[2], u[3], 0},
             {{{2 * u[0], 0, 0}, {2 * u[1], 0, 0}, {2 * u[2], 0, 0}, {0, 1, 0}}}};

@@ -28,8 +28,8 @@ TEST_CASE("border bounds: footprints reach as far as the domain's border and no 
         }
 }
 
-// Within a cell, a 21st of the square's side, the map onto the disk turns by (π/4) (2/21) = 0.075 at most, and so may the
-// distance to the rim be off by that share: 0.15 of its square. Along the diagonals the map has kinks.
+// Within a cell, a 21st of the square's side, the map onto the disk turns by (π/4) (2/21) = 0.075 at most, and so may
+// the distance to the rim be off by that share: 0.15 of its square. Along the diagonals the map has kinks.
 TEST_CASE("border bounds: a disk's rim is as far as it is all around, the corners of the samples among it") {
     const auto on_disk = [](const std::array<double, 2>& sample) {
         const DiskPoint<double> at = concentric_disk(sample[0], sample[1]);

@@ -5,8 +5,8 @@
 #include "support/glass_ball.hpp"
 #include "support/space.hpp"
 
-#include "nephroid/emission/light/directional.hpp"
 #include "nephroid/caustics.hpp"
+#include "nephroid/emission/light/directional.hpp"
 
 #include <doctest/doctest.h>
 
@@ -124,7 +124,8 @@ TEST_CASE("curved footprints: the pieces keep the flux and the mean of the one s
     }
 }
 
-// Along a fold F = (u, u²/2 + …) the exact image of a disk bends; the pieces lie on it, moved by the mean of what they bend.
+// Along a fold F = (u, u²/2 + …) the exact image of a disk bends; the pieces lie on it, moved by the mean of what
+// they bend.
 TEST_CASE("curved footprints: pieces lie where the map takes them with its tangents there") {
     const D a(0.4, 0, 0), b(0, 0.05, 0);
     const Bend second{Space3{0, 0.3, 0}, Space3{0.02, 0, 0}, Space3{0, 0, 0}};

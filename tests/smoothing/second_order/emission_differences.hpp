@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The map from light to surface about one photon, differentiated by differences in wide precision: the whole path
-///        is followed again for photons next to it. Shares no formula with the library.
+/// @file  The map from light to surface about one photon, differentiated by differences in wide precision: the whole
+///        path is followed again for photons next to it. Shares no formula with the library.
 #pragma once
 
 #include "support/space.hpp"
@@ -54,8 +54,8 @@ private:
     std::array<Space, 2> d_origin_, d_direction_;
 };
 
-/// ∂^(nu + nv) F / ∂u^nu ∂v^nv at 0 by central differences of step h, nested: wrong by the order of h² alone, and by
-/// 2^-112 / h^(nu + nv) for rounding.
+/// ∂^(nu + nv) F / ∂u^nu ∂v^nv at 0 by central differences of step h, nested: wrong by the order of h² alone,
+/// and by 2^-112 / h^(nu + nv) for rounding.
 template <class Map>
 [[nodiscard]] Space derivative_of(const Map& map, int nu, int nv, const Wide& u = Wide(0), const Wide& v = Wide(0)) {
     const Wide h(1e-5);

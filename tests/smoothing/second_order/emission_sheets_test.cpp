@@ -64,8 +64,8 @@ TEST_CASE("emission sheets: sheets side by side have all the photons of their ow
     const EmissionSheets sheets = sheets_of(photons);
     for (const EmissionSheet& sheet : sheets.sheets())
         CHECK(sheet.share == 1);
-    // 512 cells: a photon within half a cell of the border has it in its own cell or not; further than a cell's diagonal
-    // it cannot.
+    // 512 cells: a photon within half a cell of the border has it in its own cell or not; further than a cell's
+    // diagonal it cannot.
     const double cell = 1 / std::sqrt(512.0);
     std::size_t near = 0, flagged = 0;
     for (std::size_t i = 0; i < photons.size(); ++i) {

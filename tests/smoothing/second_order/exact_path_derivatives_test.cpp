@@ -6,8 +6,8 @@
 #include "support/glass_ball.hpp"
 
 #include "nephroid/emission/light/point.hpp"
-#include "nephroid/smoothing/second_order/footprint_field.hpp"
 #include "nephroid/smoothing/pilot.hpp"
+#include "nephroid/smoothing/second_order/footprint_field.hpp"
 
 #include <doctest/doctest.h>
 
@@ -155,8 +155,8 @@ template <class L>
         const auto emitted = light.emit(sampler, Spread<double>{double(count), 1});
         const auto& at = photon.sample.at;
         const double x = std::abs(at[0] - 0.5), y = std::abs(at[1] - 0.5);
-        // At the border the fit is one-sided; on the diagonals a light's map from the square to a disk has creases, over
-        // which the cells' values are interpolated to first order only.
+        // At the border the fit is one-sided; on the diagonals a light's map from the square to a disk has creases,
+        // over which the cells' values are interpolated to first order only.
         if ((std::max)(x, y) > 0.3 || std::abs(x - y) < 0.08)
             continue;
         const auto exact = follow<Once>(emitted, sampler);
@@ -173,8 +173,8 @@ template <class L>
 
 } // namespace
 
-// Within a cell, whose side falls like the root of the photons' number, H is fitted and then interpolated to second order:
-// four times the photons make a quarter of the error.
+// Within a cell, whose side falls like the root of the photons' number, H is fitted and then interpolated to second
+// order: four times the photons make a quarter of the error.
 TEST_CASE("exact path derivatives: the fitted ones come to them as photons come together") {
     const auto check = [](const auto& light) {
         std::vector<double> errors;

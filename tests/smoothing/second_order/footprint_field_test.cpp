@@ -84,8 +84,8 @@ TEST_CASE("footprint field: sheets that lie over each other by chance do not dis
     }
 }
 
-// With random photons on a straight map the rule asks for s in proportion to g^(-1/5) / sqrt(p) in the sheet's own unit,
-// g in proportion to (Q / p)²: that is p^(-1/10).
+// With random photons on a straight map the rule asks for s in proportion to g^(-1/5) / sqrt(p) in the sheet's own
+// unit, g in proportion to (Q / p)²: that is p^(-1/10).
 TEST_CASE("footprint field: of a share of the photons each stands for more of the domain") {
     const FootprintField all = field_of(photons_of(quadratic, halton(count)), false, 1000);
     for (const double share : {0.5, 0.8}) {
@@ -95,7 +95,8 @@ TEST_CASE("footprint field: of a share of the photons each stands for more of th
         const auto some = field.at({0.5, 0.5}, photon.frame, 2), every = all.at({0.5, 0.5}, photon.frame, 1);
         REQUIRE((some && every));
         REQUIRE(size_of(every->shape) < 70); // the border is 113 away
-        // The share is a median over windows of 144 photons and more: four standard deviations of its mean are below 5%.
+        // The share is a median over windows of 144 photons and more: four standard deviations of its mean are below
+        // 5%.
         CHECK(size_of(some->shape) / size_of(every->shape) == doctest::Approx(std::pow(share, -0.1)).epsilon(0.01));
     }
 }

@@ -53,8 +53,8 @@ TEST_CASE("roughness: photons on the map itself show none") {
     CHECK(roughness(std::span(one).first(1)) == 0);
 }
 
-// Two photons a step of 2 apart whose tangents are J (1 ± e): they differ by 2 e J, and J⁻¹ of that, by either one's own
-// J, has |.|² of 2 (2 e / (1 ± e))², the lesser of which counts.
+// Two photons a step of 2 apart whose tangents are J (1 ± e): they differ by 2 e J, and J⁻¹ of that, by either
+// one's own J, has |.|² of 2 (2 e / (1 ± e))², the lesser of which counts.
 TEST_CASE("roughness: the jump between two photons by their distance") {
     const PathDerivatives straight{map.first, {}, {}};
     const double e = 0.1;

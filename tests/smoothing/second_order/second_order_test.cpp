@@ -103,11 +103,11 @@ template <class Order>
 
 } // namespace
 
-// To second order the relative bias of plain splats is m₂/2 k² times the second derivative of ln F': −k²/16 (1.8/F')²,
-// 2.1e-3 at k = 0.1. A shift leaves what is of fourth order in k. Over a factor of four in k the next order, (1.8 k)² =
-// 0.5 at most times an eighth or so, changes a slope by ln(1.06)/ln(4) = 0.05, or a few of that. A lattice of 300
-// photons per unit is without noise: the kernel's transform at its frequencies, 4 · 48 · 0.8 ω^(−7/2) at ω = 2π · 300
-// k, is 2e-6 at k = 0.1.
+// To second order the relative bias of plain splats is m₂/2 k² times the second derivative of ln F': −k²/16
+// (1.8/F')², 2.1e-3 at k = 0.1. A shift leaves what is of fourth order in k. Over a factor of four in k the next
+// order, (1.8 k)² = 0.5 at most times an eighth or so, changes a slope by ln(1.06)/ln(4) = 0.05, or a few of that. A
+// lattice of 300 photons per unit is without noise: the kernel's transform at its frequencies, 4 · 48 · 0.8
+// ω^(−7/2) at ω = 2π · 300 k, is 2e-6 at k = 0.1.
 TEST_CASE("second order: the bias falls with the fourth power of the smoothing and not with its square") {
     const std::array<double, 3> reach{0.1, 0.2, 0.4};
     std::array<double, 3> first, second;
@@ -128,11 +128,11 @@ TEST_CASE("second order: the bias falls with the fourth power of the smoothing a
 }
 
 // Beside the border of a straight map k is the distance d to it. A photon at d is spread over d (1 + z), z the kernel's
-// marginal, and with its shift m₂/2 ∂(d²) = d/8 over d (9/8 + z): the irradiance comes out as the mean of 1/(1 + z) and
-// of 1/(9/8 + z). For a biweight, 16/(5π) (1 − z²)^(5/2), those are 1.2 and 1.0095. The field is linear in k² between
-// cells 7 units apart: k² is too large by up to 7²/8, 2% of it, and half of an eighth of that ends up in the
-// irradiance. Beyond d = 110 footprints do not grow: for x = 20 that is z = −0.82, and what is missing 2.3 · 0.18^(5/2)
-// = 3% of the plain irradiance, of the shifted one half of a percent.
+// marginal, and with its shift m₂/2 ∂(d²) = d/8 over d (9/8 + z): the irradiance comes out as the mean of 1/(1 +
+// z) and of 1/(9/8 + z). For a biweight, 16/(5π) (1 − z²)^(5/2), those are 1.2 and 1.0095. The field is linear in
+// k² between cells 7 units apart: k² is too large by up to 7²/8, 2% of it, and half of an eighth of that ends up in
+// the irradiance. Beyond d = 110 footprints do not grow: for x = 20 that is z = −0.82, and what is missing 2.3 ·
+// 0.18^(5/2) = 3% of the plain irradiance, of the shifted one half of a percent.
 TEST_CASE("second order: where footprints narrow towards a border the light stays even") {
     constexpr double side = 256, photons = side * side;
     const auto identity = [](double u, double v) { return Landing{{u, v, 0}, {1, 0, 0}, {0, 1, 0}}; };

@@ -38,10 +38,10 @@ TEST_CASE("sheet border: where paths change there is a border for those on eithe
         CHECK(std::sqrt(inner(h, h)) <= 1e-12);
 }
 
-// A border that runs askew to the cells is laid through the outermost photon of a strip, half a cell to either side of a
-// cell's middle, and felt by photons a cell across from there at most, as the middles of four cells are blended. Its
-// direction is off by 45 degrees at most (where of a cell's surroundings a corner is cut off, or a side), so that it may
-// be laid 1.5 cells too far out; nearer ones than the least radius count as that, 1.1 steps. More than 2 steps are
+// A border that runs askew to the cells is laid through the outermost photon of a strip, half a cell to either side of
+// a cell's middle, and felt by photons a cell across from there at most, as the middles of four cells are blended. Its
+// direction is off by 45 degrees at most (where of a cell's surroundings a corner is cut off, or a side), so that it
+// may be laid 1.5 cells too far out; nearer ones than the least radius count as that, 1.1 steps. More than 2 steps are
 // rare: 1% of the photons looked at, of which there are some 300 to a lattice; the 2% allowed are not derived.
 TEST_CASE("sheet border: borders may run any way") {
     const auto askew = [](double u, double v) {

@@ -15,8 +15,8 @@ TEST_CASE("sheet cells: cells are small only for photons that keep apart and all
     CHECK(detail::photons_per_cell(false, 0.5) == EmissionCells::photons_per_cell);
 }
 
-// Bilinear weights bring back a linear function between the outermost middles, and its slope; a few roundings of numbers
-// up to the 20 cells of a side.
+// Bilinear weights bring back a linear function between the outermost middles, and its slope; a few roundings of
+// numbers up to the 20 cells of a side.
 TEST_CASE("sheet cells: what is blended about a sample is right for linear functions") {
     const detail::SheetCells cells(EmissionCells(tests::lattice(60, 60), 1, false, 9));
     const auto linear = [](const std::array<double, 2>& at) { return 2 + 3 * at[0] - 5 * at[1]; };

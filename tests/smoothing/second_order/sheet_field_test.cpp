@@ -30,8 +30,8 @@ TEST_CASE("sheet field: a straight map has round footprints and no shift away fr
         }
 }
 
-// Between the middles of cells shapes are bilinear, beside borders smooth: a difference over a fiftieth of a lattice step
-// is off by its square.
+// Between the middles of cells shapes are bilinear, beside borders smooth: a difference over a fiftieth of a lattice
+// step is off by its square.
 TEST_CASE("sheet field: the divergence is that of the shapes around") {
     const Field field = field_of(curved);
     const double u0 = unit_of(all), h = 0.01 / side;

@@ -67,8 +67,9 @@ TEST_CASE("sheet fit: a photon with tangents that are no numbers does not spoil 
     }
 }
 
-// Beside a pole of the map. The photon's tangents are K times the others', and its weight is 1/K² of theirs: what it adds to
-// the fitted J is at most of the order of |J|/K, to H as much per unit step. With an even weight it would be K |J|.
+// Beside a pole of the map. The photon's tangents are K times the others', and its weight is 1/K² of theirs: what it
+// adds to the fitted J is at most of the order of |J|/K, to H as much per unit step. With an even weight it would be K
+// |J|.
 TEST_CASE("sheet fit: a photon whose tangents are far longer than those around it does not decide for them") {
     constexpr double longer = 1e4;
     auto photons = photons_of(quadratic, lattice(std::size_t(side), std::size_t(side)));

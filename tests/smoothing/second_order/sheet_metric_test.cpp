@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t side = 63; // photons along it, 3 × 3 in a cell
 constexpr double tangent = 0.5;  // of every photon, in both directions: a unit of its frame is half as long
 
-/// A lamp whose photons start at (u + ½ max(|u|, |v|), v), (u, v) the sample from the square's middle: linear in each of
-/// the four triangles that the diagonals make, with kinks between them.
+/// A lamp whose photons start at (u + ½ max(|u|, |v|), v), (u, v) the sample from the square's middle: linear in each
+/// of the four triangles that the diagonals make, with kinks between them.
 PathSample emitted(const std::array<double, 2>& sample) {
     const double u = sample[0] - 0.5, v = sample[1] - 0.5;
     const glm::dvec3 zero(0), place(u + 0.5 * std::max(std::abs(u), std::abs(v)), v, 1);

@@ -2,8 +2,8 @@
 /// @file  Fields over photons on a lattice, and what they should be beside borders.
 #pragma once
 
-#include "nephroid/smoothing/second_order/footprint_field.hpp"
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/smoothing/second_order/footprint_field.hpp"
 
 #include "smoothing/second_order/maps.hpp"
 

@@ -34,8 +34,9 @@ void check_close(const Symmetric2& a, const Symmetric2& b, double tolerance) {
 
 } // namespace
 
-// With g = 0.02 (tr Q)² the bias is g s⁴, so that the squared error is g² s⁸ + 2.8/s⁴, or + 1.8/s² for random photons:
-// least at s¹² = 1.4/g², s¹⁰ = 0.45/g². The rule has the roots of that to four digits, 1.028 and 0.923: to 1e-3 in s².
+// With g = 0.02 (tr Q)² the bias is g s⁴, so that the squared error is g² s⁸ + 2.8/s⁴, or + 1.8/s² for random
+// photons: least at s¹² = 1.4/g², s¹⁰ = 0.45/g². The rule has the roots of that to four digits, 1.028 and
+// 0.923: to 1e-3 in s².
 TEST_CASE("smoothing rule: where the map bends alike in all directions s is the formula's") {
     for (const double half_q2 : {1e-5, 1e-4, 1e-3, 1e-2}) {
         const double q2 = 2 * half_q2, g = 0.02 * q2 * q2;
@@ -76,7 +77,8 @@ TEST_CASE("smoothing rule: the footprint is wide where the map is straight and n
             CHECK(std::abs(w.x - c * v.x) <= 1e-11 * c);
             CHECK(std::abs(w.y - c * v.y) <= 1e-11 * c);
         }
-        // det S = s⁴ with g = 0.02 · 4 det Q, and tr(S Q) = 2 s² sqrt(det Q): the least that any S of this determinant has.
+        // det S = s⁴ with g = 0.02 · 4 det Q, and tr(S Q) = 2 s² sqrt(det Q): the least that any S of this
+        // determinant has.
         const double g = 0.08 * q.determinant();
         const double r = i % 2 == 0 ? 1.028 * std::pow(g, -1.0 / 6) : 0.923 * std::pow(g, -1.0 / 5);
         CHECK(s.determinant() == doctest::Approx(std::pow(r, 4)).epsilon(1e-10));

@@ -29,8 +29,8 @@ namespace detail {
 
 /// The ray that meets the ball at the angle of incidence i, 0 to pi/2, in its plane through the axis.
 ///
-/// With i it turns towards the axis by 2(i - t), t the refracted angle. It lands at x = landing(i): on the side on which
-/// it met the ball up to the crossing, on the other side beyond.
+/// With i it turns towards the axis by 2(i - t), t the refracted angle. It lands at x = landing(i): on the side on
+/// which it met the ball up to the crossing, on the other side beyond.
 class BallMap {
 public:
     explicit BallMap(const Ball& ball) : ball_(ball) {
@@ -45,7 +45,7 @@ public:
 
     [[nodiscard]] double fold() const { return fold_; }         ///< i of the ray that lands on the fold
     [[nodiscard]] double crossing() const { return crossing_; } ///< i of the ray that lands on the axis, after the fold
-    [[nodiscard]] double last() const { return last_; }         ///< beyond this i the rays leave upwards, or miss the ball
+    [[nodiscard]] double last() const { return last_; } ///< beyond this i the rays leave upwards, or miss the ball
     [[nodiscard]] double fold_radius() const { return landing(fold_); }
     [[nodiscard]] double rim_radius() const { return rim_radius_; } ///< of the lit disk; 1e300 if it has no end
 
@@ -97,7 +97,8 @@ private:
         const Path at = path(i);
         const double sin_i = std::sin(i), cos_i = std::cos(i);
         const double d_t = cos_i / std::sqrt(index * index - sin_i * sin_i);
-        const double d_a = ball_.source == BallLight::collimated ? 0 : cos_i / std::sqrt(distance * distance - sin_i * sin_i);
+        const double d_a =
+            ball_.source == BallLight::collimated ? 0 : cos_i / std::sqrt(distance * distance - sin_i * sin_i);
         const double tan_d = std::tan(at.direction), cos_d = std::cos(at.direction);
         return (std::cos(at.exit) + tan_d * std::sin(at.exit)) * (2 * d_t - 1 + d_a) +
                (centre - std::cos(at.exit)) * (2 * d_t - 2 + d_a) / (cos_d * cos_d);
@@ -112,11 +113,13 @@ class BallFlux {
 public:
     /// @param reach  the largest distance that will be asked for, >= 0
     BallFlux(const BallMap& map, double reach)
-        : map_(map), fold_radius_(map.fold_radius()), end_((std::min)(map.rim_radius(), (std::max)(reach, fold_radius_))),
+        : map_(map), fold_radius_(map.fold_radius()),
+          end_((std::min)(map.rim_radius(), (std::max)(reach, fold_radius_))),
           // Two rays land at fold_radius (1 - v^2), on either side of the fold: one function of v in -1 to 1, with its
           // nearest singularity at -sqrt(2), where the mirror image of the fold would be.
           near_fold_([&](double v) { return map.emitted_below(at_fold(v)); }, -1, 1, 48) {
-        // The third ray crosses the axis; its flux is smooth in asinh(radius / fold radius), the next singularity at -0.88.
+        // The third ray crosses the axis; its flux is smooth in asinh(radius / fold radius), the next singularity at
+        // -0.88.
         const auto count = static_cast<std::size_t>(std::ceil(std::asinh(end_ / fold_radius_) / 0.5));
         panel_ = std::asinh(end_ / fold_radius_) / static_cast<double>(count);
         for (std::size_t k = 0; k < count; ++k)

@@ -14,9 +14,9 @@ namespace nephroid::reference {
 /// A rectangle of the plane z = 0 in world units, seen from above without perspective, cut into width x height equal
 /// pixels. A pixel shows the irradiance averaged over its own rectangle.
 struct Film {
-    double x_min = 0, x_max = 1;     ///< world units, x_min < x_max
-    double y_min = 0, y_max = 1;     ///< world units, y_min < y_max
-    int width = 512, height = 512;   ///< pixels along x and along y, 1 to 65536
+    double x_min = 0, x_max = 1;   ///< world units, x_min < x_max
+    double y_min = 0, y_max = 1;   ///< world units, y_min < y_max
+    int width = 512, height = 512; ///< pixels along x and along y, 1 to 65536
 
     [[nodiscard]] double pixel_width() const { return (x_max - x_min) / width; }
     [[nodiscard]] double pixel_height() const { return (y_max - y_min) / height; }

@@ -57,7 +57,8 @@ public:
         if (y_near >= 1)
             return;
         const double x_near = std::sqrt((std::fmax)(0.0, chord_.nearest() * chord_.nearest() - y_far * y_far));
-        const int begin = columns_before(x_near), end = columns_before(std::sqrt(1 - y_near * y_near) + film_.pixel_width());
+        const int begin = columns_before(x_near),
+                  end = columns_before(std::sqrt(1 - y_near * y_near) + film_.pixel_width());
         if (begin >= end)
             return;
 
@@ -115,8 +116,8 @@ private:
 ///
 /// @param film     any rectangle
 /// @param executor  who runs the work; the result does not depend on it, bit for bit
-/// @return  irradiances averaged over the pixels, exact to about 1e-8 of themselves; with any number of reflections to 1e-6
-///          along the mirror, and to 1e-6 of the image's mean in pixels that it touches near (0, 1) and (0, -1),
+/// @return  irradiances averaged over the pixels, exact to about 1e-8 of themselves; with any number of reflections to
+///          1e-6 along the mirror, and to 1e-6 of the image's mean in pixels that it touches near (0, 1) and (0, -1),
 ///          for pixels of sides above 1e-4
 /// Throws `std::invalid_argument` if the film is out of range, or `reflections` is not one of its values.
 template <ExecutorArgument E = ThreadExecutor>

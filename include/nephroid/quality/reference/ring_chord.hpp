@@ -96,8 +96,8 @@ public:
     }
 
     /// @return  the flux that chord k brings to `r`
-    /// @param phis  sorted; all angles between which the same two of the rectangle's sides and the chord's ends limit the
-    ///              length inside. More do no harm.
+    /// @param phis  sorted; all angles between which the same two of the rectangle's sides and the chord's ends limit
+    ///              the length inside. More do no harm.
     [[nodiscard]] double flux(const Rectangle& r, const std::vector<double>& phis) const {
         const auto density = [&](double phi) { return std::cos(phi) * at(phi).length_inside(r); };
         double sum = 0;

@@ -14,7 +14,8 @@ namespace nephroid::reference::detail {
 /// Light that meets the mirror first at phi near pi/2, close to (0, 1), and creeps along it.
 ///
 /// With q = cos^2(phi) / 2 and u in -1 to 1 along a chord, radius^2 = 1 - 2 q (1 - u^2), and the flux per dq and per
-/// length is 1 / sin(phi). It is taken as spread evenly over u and over an arc from phi clockwise: off by no more than q.
+/// length is 1 / sin(phi). It is taken as spread evenly over u and over an arc from phi clockwise: off by no more than
+/// q.
 class Gallery {
 public:
     /// @return  how many chords to take one by one, so that the others keep within 1/2000 of a pixel's side
@@ -31,8 +32,10 @@ public:
     /// @return  the flux that such light brings to `r`
     [[nodiscard]] double flux(const Rectangle& r) const {
         const double depth = 0.5 * cos_first_ * cos_first_; // the greatest q
-        const double x_far = (std::fmax)(std::abs(r.x0), std::abs(r.x1)), y_far = (std::fmax)(std::abs(r.y0), std::abs(r.y1));
-        const double x_near = (std::fmax)(0.0, (std::fmax)(r.x0, -r.x1)), y_near = (std::fmax)(0.0, (std::fmax)(r.y0, -r.y1));
+        const double x_far = (std::fmax)(std::abs(r.x0), std::abs(r.x1)),
+                     y_far = (std::fmax)(std::abs(r.y0), std::abs(r.y1));
+        const double x_near = (std::fmax)(0.0, (std::fmax)(r.x0, -r.x1)),
+                     y_near = (std::fmax)(0.0, (std::fmax)(r.y0, -r.y1));
         if (std::hypot(x_far, y_far) < 1 - depth || std::hypot(x_near, y_near) > 1 || r.x1 < 0)
             return 0;
         return integrate<4>(
@@ -47,7 +50,8 @@ public:
     }
 
 private:
-    /// The angle within the rectangle of an arc about the axis from `begin` to `end`, radians from the +x axis, 0 to pi/2.
+    /// The angle within the rectangle of an arc about the axis from `begin` to `end`, radians from the +x axis, 0 to
+    /// pi/2.
     [[nodiscard]] static double arc(double radius, double begin, double end, const Rectangle& r) {
         // Above the x axis and right of the y axis each side cuts the arc once at the most.
         const auto angle = [radius](double x) { return std::acos((std::clamp)(x / radius, -1.0, 1.0)); };

@@ -12,7 +12,8 @@ namespace nephroid::reference::detail {
 ///
 /// Inverse quadratic interpolation where it is safe, bisection elsewhere.
 /// If the signs agree, the end with the smaller |f| comes back.
-/// Source: Chandrupatla 1997, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function".
+/// Source: Chandrupatla 1997, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear
+/// function".
 template <class F>
 [[nodiscard]] double root_between(const F& f, double a, double b, double fa, double fb) {
     if (fa == 0 || fb == 0 || (fa < 0) == (fb < 0))

@@ -101,8 +101,9 @@ private:
         if (high <= knots[0] || low >= knots[3])
             return 0;
         const auto enters = [&](double landed) {
-            return root_between([&](double t) { return landing(t) - (landed - period); }, breaks_[piece], breaks_[piece + 1],
-                                landings_[piece] - (landed - period), landings_[piece + 1] - (landed - period));
+            return root_between([&](double t) { return landing(t) - (landed - period); }, breaks_[piece],
+                                breaks_[piece + 1], landings_[piece] - (landed - period),
+                                landings_[piece + 1] - (landed - period));
         };
         double sum = 0, from = enters((std::clamp)(knots[0], low, high));
         for (std::size_t i = 0; i < 3; ++i) {
@@ -162,9 +163,8 @@ template <ExecutorArgument E = ThreadExecutor>
         if (p == 0 || std::abs(p_exact - p) > 1e-14 * p)
             continue;
         std::vector<double> kinds(static_cast<std::size_t>(p) * columns + static_cast<std::size_t>(q * film.height));
-        executor(kinds.size(), [&](std::size_t kind) {
-            kinds[kind] = map.pixel(least + b / q * static_cast<double>(kind), a, b);
-        });
+        executor(kinds.size(),
+                 [&](std::size_t kind) { kinds[kind] = map.pixel(least + b / q * static_cast<double>(kind), a, b); });
         for (int j = 0; j < film.height; ++j)
             for (int i = 0; i < film.width; ++i)
                 row(j)[i] = kinds[static_cast<std::size_t>(p * i + q * j)];

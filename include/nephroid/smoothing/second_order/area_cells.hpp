@@ -93,8 +93,8 @@ public:
         return step;
     }
 
-    /// Calls visit(step, cell) for a cell and those that touch it: steps of −1 to 1 along each number, and `size()` for a
-    /// cell beyond the domain.
+    /// Calls visit(step, cell) for a cell and those that touch it: steps of −1 to 1 along each number, and `size()`
+    /// for a cell beyond the domain.
     template <class Visit>
     void for_each_around(std::size_t cell, Visit&& visit) const {
         const Place place = place_of(cell);

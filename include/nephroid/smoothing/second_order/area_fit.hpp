@@ -32,8 +32,9 @@ struct TangentPair {
             turn.first.y * tangents[0] + turn.second.y * tangents[1]};
 }
 
-/// Fits J(σ, τ) = J + H σ + M τ + ½ T σ σ to tangents, where a step of σ goes along place and direction at once, as the
-/// tangents do, and a step of τ along one and back along the other: place is σ + τ and direction σ − τ.
+/// Fits J(σ, τ) = J + H σ + M τ + ½ T σ σ to tangents, where a step of σ goes along place and direction at
+/// once, as the tangents do, and a step of τ along one and back along the other: place is σ + τ and direction σ
+/// − τ.
 class AreaFit {
 public:
     /// @param at        from the frame's photon

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The photons of an area light: which of them tell of the same map, and along which of their numbers it changes.
+/// @file  The photons of an area light: which of them tell of the same map, and along which of their numbers it
+///        changes.
 #pragma once
 
 #include "nephroid/smoothing/second_order/area_cells.hpp"
@@ -54,7 +55,8 @@ public:
         return most > 0 ? std::optional(signature) : std::nullopt;
     }
 
-    /// How many cells there should be along each number: as its change of the tangents deserves, which coarse cells tell.
+    /// How many cells there should be along each number: as its change of the tangents deserves, which coarse cells
+    /// tell.
     [[nodiscard]] AreaCells::Place cell_counts() const {
         const AreaCells coarse(samples_, AreaCells::counts_for(size(), {1, 1, 1, 1}));
         constexpr double least = 1e-3; // relative change over the domain: less is none

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// @file  How much the map from light to surface bends within a footprint, and the shape of footprint that bends least.
 ///
-/// What second order leaves of the bias does not depend on the coordinates that emission is described in. So nor does its
-/// measure here: derivatives are taken in the footprint's own coordinates w, u = L w with S = L Lᵀ, in which it is round.
-/// There h = J⁻¹H and t = J⁻¹T become L⁻¹ h(L·, L·) and L⁻¹ t(L·, L·, L·), and the footprint bends by
+/// What second order leaves of the bias does not depend on the coordinates that emission is described in. So nor does
+/// its measure here: derivatives are taken in the footprint's own coordinates w, u = L w with S = L Lᵀ, in which it
+/// is round. There h = J⁻¹H and t = J⁻¹T become L⁻¹ h(L·, L·) and L⁻¹ t(L·, L·, L·), and the footprint
+/// bends by
 ///
 ///     B(S) = |h|² + 0.3 |t| + (r/2 + 5/(π N)) |L|²,
 ///
-/// r the roughness, N the photons. B grows in proportion to S. Along any path of stretching its logarithm is convex, so that
-/// for a given area one shape bends least.
+/// r the roughness, N the photons. B grows in proportion to S. Along any path of stretching its logarithm is convex, so
+/// that for a given area one shape bends least.
 #pragma once
 
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
@@ -144,8 +145,8 @@ private:
 
 } // namespace detail
 
-/// Q: how much the map bends, by direction, per u0²: footprints that bend least are in proportion to Q⁻¹, and S of that
-/// shape bends by tr(S Q).
+/// Q: how much the map bends, by direction, per u0²: footprints that bend least are in proportion to Q⁻¹, and S of
+/// that shape bends by tr(S Q).
 ///
 /// @param photons  emitted into this domain, N: no footprint should be of the domain's own size
 /// @param share    of them that took this path (PhotonDensity): each stands for so much more of the domain
@@ -174,9 +175,9 @@ private:
     return (0.5 * size) * radii2.with(1 / ratio, ratio);
 }
 
-/// The same for the photons of an area light, whose derivatives are a slice's: by how much a unit step in each direction
-/// changes the tangents. The light of all slices together is smooth where one of them bends, and footprints that are long
-/// where their own slice allows it have a larger error (a ring lit by a disk: 0.058 against 0.052).
+/// The same for the photons of an area light, whose derivatives are a slice's: by how much a unit step in each
+/// direction changes the tangents. The light of all slices together is smooth where one of them bends, and footprints
+/// that are long where their own slice allows it have a larger error (a ring lit by a disk: 0.058 against 0.052).
 [[nodiscard]] inline Symmetric2 slice_bending(const PathDerivatives& map, double photons, double roughness) {
     const detail::EmissionPullback pull_back(map.first);
     const std::array<Plane2, 3> h = {pull_back(map.second[0]), pull_back(map.second[1]), pull_back(map.second[2])};

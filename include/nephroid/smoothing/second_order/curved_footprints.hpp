@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// @file  Curved footprints: a splat bent as the map bends, in pieces that are ellipses each.
 ///
-/// A photon about which the map F(u) = F + J u + ½ H u u is known lights the image of a disk, which at a fold is far from
-/// an ellipse. Seven pieces of half the disk's radius, at its middle and half way to its edge, are splatted where that map
-/// takes them, with the tangents that it has there. Their mean is where the one splat lies, shift included; on a straight
-/// map their variance and fourth moments are those of the one biweight, and they reach as far.
+/// A photon about which the map F(u) = F + J u + ½ H u u is known lights the image of a disk, which at a fold is far
+/// from an ellipse. Seven pieces of half the disk's radius, at its middle and half way to its edge, are splatted where
+/// that map takes them, with the tangents that it has there. Their mean is where the one splat lies, shift included; on
+/// a straight map their variance and fourth moments are those of the one biweight, and they reach as far.
 #pragma once
 
-#include "nephroid/smoothing/second_order/path_derivatives.hpp"
-#include "nephroid/footprint/smoothing.hpp"
 #include "nephroid/footprint/ellipse.hpp"
+#include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/smoothing/second_order/path_derivatives.hpp"
 #include "nephroid/transport/walk.hpp"
 
 #include <array>
@@ -22,8 +22,8 @@ namespace nephroid {
 /// As SecondOrder, and photons about which the map bends are splatted in seven pieces: for sharp folds, and for scenes
 /// where rays cost far more than splats. A type for `SplatPolicies::order`; who does not use it pays nothing.
 struct CurvedFootprints : SecondOrder {
-    /// Photons whose footprint bends by less than this part of its minor radius (the norm of the second derivatives along
-    /// its semi-axes over that) stay one ellipse, >= 0
+    /// Photons whose footprint bends by less than this part of its minor radius (the norm of the second derivatives
+    /// along its semi-axes over that) stay one ellipse, >= 0
     double least_bend = 0.5;
 };
 

@@ -7,8 +7,8 @@
 /// which: beside a border a photon's neighbours took the path that it took itself, but amid others they did not.
 #pragma once
 
-#include "nephroid/smoothing/second_order/emission_cells.hpp"
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/smoothing/second_order/emission_cells.hpp"
 
 #include <array>
 #include <limits>

@@ -7,7 +7,8 @@
 /// derivatives, so their derivatives are the second ones.
 ///
 /// Splatting does not ask for them. In the shift in place of the fitted ones they changed the error of waves and of the
-/// ring by less than 8% from 10,000 photons on, at several times the tracing; at 2,500 it was from 18% less to 38% more.
+/// ring by less than 8% from 10,000 photons on, at several times the tracing; at 2,500 it was from 18% less to 38%
+/// more.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"
@@ -112,17 +113,17 @@ template <Vector3 D, class Part>
 /// Follows a photon and computes how the place where it lands changes with where it was emitted.
 ///
 /// The scene computes in D's scalar, Dual<T, 2>: positions, distances, normals and curvatures of hits have to carry the
-/// derivatives of what they were computed from. Closed formulas do so by themselves; what is found by iteration or looked
-/// up needs one more step of Newton's method in D's scalar: x − f(x)/f'(x) has the right derivatives once x is right.
-/// Fluxes (the scene's weights) must take derivatives as well. The light stays as it is. A scalar of
+/// derivatives of what they were computed from. Closed formulas do so by themselves; what is found by iteration or
+/// looked up needs one more step of Newton's method in D's scalar: x − f(x)/f'(x) has the right derivatives once x is
+/// right. Fluxes (the scene's weights) must take derivatives as well. The light stays as it is. A scalar of
 /// Dual<Dual<T, 2>, 2> brings the third derivatives too.
 ///
 /// ```cpp
 /// nephroid::Sampler sampler(sequence, i); // photon i of the pass
 /// const auto photon = light.emit(sampler, nephroid::Spread<float>{photons, 1});
 /// const MyScene<nephroid::Dual<double, 2>> differentiable(...);
-/// const auto path = nephroid::exact_path_derivatives<MyVec3<nephroid::Dual<double, 2>>>(differentiable, photon, sampler);
-/// if (path) // it landed: path->map.second is F_uu, F_uv, F_vv
+/// const auto path = nephroid::exact_path_derivatives<MyVec3<nephroid::Dual<double, 2>>>(differentiable, photon,
+/// sampler); if (path) // it landed: path->map.second is F_uu, F_uv, F_vv
 /// ```
 ///
 /// @tparam D       the scene's vector

@@ -2,8 +2,8 @@
 /// @file  What chooses the footprints of one light's photons, and what is then said of one of them.
 #pragma once
 
-#include "nephroid/smoothing/second_order/path_derivatives.hpp"
 #include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/smoothing/second_order/path_derivatives.hpp"
 #include "nephroid/vector/plane.hpp"
 
 #include <array>

@@ -15,8 +15,8 @@ struct TangentResidual {
     std::array<Space3, 2> tangents, unexplained;
 };
 
-/// The mean over the photons of |J⁻¹ΔJ|²/|δ|², per u0²: by what the nearest photon's J differs that the map does not
-/// explain, over how far away it is. Of a smooth map next to nothing.
+/// The mean over the photons of |J⁻¹ΔJ|²/|δ|², per u0²: by what the nearest photon's J differs that the map
+/// does not explain, over how far away it is. Of a smooth map next to nothing.
 ///
 /// A pair counts for 0.15 at most: where a map is singular (the rim of a ball) all photons differ, and small footprints
 /// would only show them.

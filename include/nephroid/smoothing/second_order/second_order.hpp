@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// @file  Second-order splatting: each splat's centre shifted so that its bias cancels, its footprint shaped by what the
+/// @file  Second-order splatting: each splat's centre shifted so that its bias cancels, its footprint shaped by what
+///        the
 /// photons around it say of the map.
 ///
 /// A splat of shape S (smoothing_rule.hpp) about F spreads the photon's flux with a relative bias of
-/// div[J⁻¹(m₂/2 ∂_a(S_ab ∂_b F) − D)] to second order, div taken over the emission domain, D the shift of its centre.
-/// So D = m₂/2 (S_ab F_ab + (∂_a S_ab) F_b) leaves a bias of fourth order. It costs nothing per pixel.
+/// div[J⁻¹(m₂/2 ∂_a(S_ab ∂_b F) − D)] to second order, div taken over the emission domain, D the shift of
+/// its centre. So D = m₂/2 (S_ab F_ab + (∂_a S_ab) F_b) leaves a bias of fourth order. It costs nothing per pixel.
 ///
 /// For two emission coordinates (point, spot and directional lights) this is exact; for the four of an area light the
 /// same shift does it, along the slice that a footprint follows (area_field.hpp). Photons of lights that draw any other
@@ -45,7 +46,8 @@ public:
         double largest_reach = std::numeric_limits<double>::infinity(); ///< of a footprint that is not bounded
     };
 
-    /// @param pilot  photons emitted with smoothing 1, in the order of their indices; those of each light are put together
+    /// @param pilot  photons emitted with smoothing 1, in the order of their indices; those of each light are put
+    ///               together
     template <Flux F, std::size_t N, class E>
     SecondOrderFootprints(std::span<const TracedPhoton<V, F, N>> pilot, const Options& options, E& executor)
         : options_(options) {
@@ -96,8 +98,8 @@ public:
     /// Gives a deposit its footprint and its place.
     ///
     /// @param photon  emitted with smoothing 1; its deposit must not be empty
-    /// @param second  if given, gets the map's second derivatives by the halves of the new tangents, along the surface; as
-    ///                much shortened as the shift is, and 0 where they are not known
+    /// @param second  if given, gets the map's second derivatives by the halves of the new tangents, along the surface;
+    ///                as much shortened as the shift is, and 0 where they are not known
     /// @return  whether the shift was shortened
     template <Flux F, std::size_t N>
     bool apply(TracedPhoton<V, F, N>& photon, std::array<Space3, 3>* second = nullptr) const {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
-/// @file  How large, and of which shape, a photon's footprint should be: the rule that replaces the smoothing parameter.
+/// @file  How large, and of which shape, a photon's footprint should be: the rule that replaces the smoothing
+///        parameter.
 ///
 /// A photon's footprint has the covariance m₂ J S Jᵀ, S a symmetric tensor in emission coordinates whose unit is
 /// u0 (S = s² 1 is the plain splat of smoothing s). With the centre shifted (second_order.hpp) the bias left is of
 /// fourth order, modelled as 0.02 tr(S Q)², where Q measures by how much the map bends within a unit step in each
-/// direction; the variance is 1.8/s² for random and 2.8/s⁴ for stratified photons, s⁴ = det S. For a given det S the
-/// bias is least with S in proportion to Q⁻¹: wide where the map is straight, narrow where it bends, and then
+/// direction; the variance is 1.8/s² for random and 2.8/s⁴ for stratified photons, s⁴ = det S. For a given det S
+/// the bias is least with S in proportion to Q⁻¹: wide where the map is straight, narrow where it bends, and then
 /// tr(S Q) = 2 s² sqrt(det Q). That leaves a minimum over s alone.
 #pragma once
 
@@ -71,10 +72,10 @@ struct PhotonDensity {
 }
 
 /// S from log Q for the photons of an area light. Two things are not as for two emission coordinates: samples of four
-/// numbers are hardly stratified, so that the variance falls with 1/s² for either kind of sequence, and where the slice
-/// of the map that a footprint follows has a fold, the light of all slices together is smooth and thin footprints are
-/// noise alone. The 0.923 of two coordinates and random photons follows from the model of bias and variance above; the
-/// 1.2 and 1.5 here do not: no such model was made for four coordinates, they were fitted to one picture
+/// numbers are hardly stratified, so that the variance falls with 1/s² for either kind of sequence, and where the
+/// slice of the map that a footprint follows has a fold, the light of all slices together is smooth and thin footprints
+/// are noise alone. The 0.923 of two coordinates and random photons follows from the model of bias and variance above;
+/// the 1.2 and 1.5 here do not: no such model was made for four coordinates, they were fitted to one picture
 /// (ring-disk-zoom, a ring lit by a small disk) with 20,000 photons.
 [[nodiscard]] inline Symmetric2 area_smoothing_tensor(const Symmetric2& log_q, bool stratified,
                                                       const SmoothingBounds& bounds) {

@@ -26,8 +26,8 @@ struct VaryingShape {
 
     /// Reduces the radius ρ along a unit direction, ρ² = n·S n, to less than `most`, and leaves it across as it is.
     ///
-    /// ρ becomes (ρ⁻⁴ + most⁻⁴)^(−1/4): where the lesser of the two had a bend, the shift would have a step, and the
-    /// light an edge. A `most` of 2.9 ρ and more, which would shorten it by 0.4%, changes nothing.
+    /// ρ becomes (ρ⁻⁴ + most⁻⁴)^(−1/4): where the lesser of the two had a bend, the shift would have a
+    /// step, and the light an edge. A `most` of 2.9 ρ and more, which would shorten it by 0.4%, changes nothing.
     /// @param slope  of `most`, by u and v
     void bound_along(Plane2 n, double most, Plane2 slope) {
         const Plane2 s_n = value(n);
