@@ -158,7 +158,7 @@ code { overflow-wrap: anywhere; }
            "bandwidth that is best for it, found by a sweep. Errors are against " +
            escaped(truth) +
            ": rel is rms(E − E<sub>ref</sub>)/mean(E<sub>ref</sub>); "
-            "RMSE and SSIM are of the pictures exposed to half "
+           "RMSE and SSIM are of the pictures exposed to half "
            "grey and clipped. Times are of the whole way from the lamp to the picture, the map of eye path vertices or "
            "of "
            "photons included; methods that need no differentials trace without them.</p>\n<p class=\"note\">" +
