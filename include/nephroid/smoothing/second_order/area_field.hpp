@@ -1,26 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// @file  What the photons of an area light say about one another: shapes of footprints and second derivatives over its
-/// four-dimensional domain.
+/// @file  Shapes of footprints and second derivatives over the four-dimensional domain of an area light, from its
+///        photons.
 ///
-/// A photon of an area light has four emission coordinates u, and F(u) maps R⁴ to the floor: the irradiance is
-/// E(x) = ∫ w δ(x − F(u)) d⁴u, w the flux density. Its footprint follows a slice of that domain alone, spanned
-/// by two vectors e_0, e_1 that change place and direction at once (aligned_basis.hpp): t_a = e_a·∇F are its
-/// tangents, and its covariance is C = m₂ S_ab t_a t_bᵀ. To second order splats with a shift D make
-///
-///     E + ∂_j [ ½ ∂_i ∫ w C_ij δ(x − F) d⁴u − ∫ w D_j δ(x − F) d⁴u ].
-///
-/// A derivative by x of δ(x − F(u)) along t_a is one by u along −e_a, so that by parts
-///
-///     ∂_i ∫ w S_ab t_a^i t_b^j δ(x − F) d⁴u = ∫ ∇·(w S_ab t_b^j e_a) δ(x − F) d⁴u − (what is on
-///     the domain's borders),
-///
-/// and D = m₂/2 · 1/w ∇·(w S_ab e_a t_b) leaves no bias of second order but that of the borders. Where e_a and w
-/// change slowly that is m₂/2 (S_ab (e_a·∇) t_b + (e_a·∇ S_ab) t_b), the same as in two dimensions: it does not
-/// matter that E is no longer 1/|det J|, nor what happens across the slice. It needs the change of the tangents along
-/// themselves only, e_a·∇ t_b, which neighbours tell: J(u) is fitted linearly in all four coordinates, and
-/// quadratically along the slice. Left out are the slope of w (cosines, losses) and the divergence of e_a: bases
-/// aligned with the light's normal turn by up to tan(α/2) per radian at an angle α from it, and vectors change their
-/// length with the density of directions.
+/// A footprint follows a slice of that domain, spanned by two vectors that change place and direction at once
+/// (aligned_basis.hpp). Along it the shift is the same as in two dimensions [include/nephroid/README.md, "Lamps with
+/// area"]. It needs the change of the tangents along themselves only, which neighbours tell: J(u) is fitted linearly in
+/// all four coordinates, and quadratically along the slice.
 ///
 /// Borders count for less than in two dimensions, since light from all places of the lamp falls on either side, and
 /// short footprints beside them show photons sooner.

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// @file  How much the map from light to surface bends within a footprint, and the shape of footprint that bends least.
 ///
-/// What second order leaves of the bias does not depend on the coordinates that emission is described in. So nor does
-/// its measure here: derivatives are taken in the footprint's own coordinates w, u = L w with S = L Lᵀ, in which it
-/// is round. There h = J⁻¹H and t = J⁻¹T become L⁻¹ h(L·, L·) and L⁻¹ t(L·, L·, L·), and the footprint
-/// bends by
+/// A footprint of shape S = L Lᵀ bends by
 ///
 ///     B(S) = |h|² + 0.3 |t| + (r/2 + 5/(π N)) |L|²,
 ///
-/// r the roughness, N the photons. B grows in proportion to S. Along any path of stretching its logarithm is convex, so
-/// that for a given area one shape bends least.
+/// h and t being J⁻¹H and J⁻¹T in coordinates in which the footprint is round, r the roughness and N the photons
+/// [include/nephroid/README.md, "Footprints from neighbours"].
 #pragma once
 
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// @file  Second-order splatting: each splat's centre shifted so that its bias cancels, its footprint shaped by what
-///        the
-/// photons around it say of the map.
+/// @file  Second-order splatting: each splat's centre shifted so that its bias cancels, its footprint shaped by the
+///        photons around it.
 ///
-/// A splat of shape S (smoothing_rule.hpp) about F spreads the photon's flux with a relative bias of
-/// div[J⁻¹(m₂/2 ∂_a(S_ab ∂_b F) − D)] to second order, div taken over the emission domain, D the shift of
-/// its centre. So D = m₂/2 (S_ab F_ab + (∂_a S_ab) F_b) leaves a bias of fourth order. It costs nothing per pixel.
+/// A splat of shape S (smoothing_rule.hpp) about the photon's place F is shifted by
+///
+///     D = m₂/2 (S_ab F_ab + (∂_a S_ab) F_b),
+///
+/// which leaves a bias of fourth order and costs nothing per pixel [include/nephroid/README.md, "The second-order
+/// shift"].
 ///
 /// For two emission coordinates (point, spot and directional lights) this is exact; for the four of an area light the
 /// same shift does it, along the slice that a footprint follows (area_field.hpp). Photons of lights that draw any other
