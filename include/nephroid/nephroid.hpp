@@ -37,3 +37,4 @@
 #include "nephroid/smoothing/cross_validation.hpp"
 #include "nephroid/smoothing/second_order/exact_path_derivatives.hpp"
 #include "nephroid/transport/walk.hpp"
+#include "nephroid/version.hpp"

@@ -6,6 +6,7 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,11 +38,15 @@ public:
         if (!has(property))
             return missing;
         const tinygltf::Value& value = value_->Get(property);
+        // The array itself: `Value::Get(index)` takes an int or a size_t, by tinygltf's version.
+        tinygltf::Value::Array numbers;
+        if (value.IsArray())
+            numbers = value.Get<tinygltf::Value::Array>();
         glm::vec3 result(0);
-        for (int i = 0; i < 3; ++i) {
-            if (!value.IsArray() || value.ArrayLen() != 3 || !value.Get(i).IsNumber())
+        for (std::size_t i = 0; i < 3; ++i) {
+            if (numbers.size() != 3 || !numbers[i].IsNumber())
                 fail({owner_, " has a ", property, " that is not three numbers"});
-            result[i] = to_float(value.Get(i).GetNumberAsDouble(), owner_, property);
+            result[static_cast<int>(i)] = to_float(numbers[i].GetNumberAsDouble(), owner_, property);
         }
         return result;
     }

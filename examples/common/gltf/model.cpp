@@ -142,6 +142,31 @@ bool read_whole(std::vector<unsigned char>* out, std::string* error, const std::
 
 bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
+bool size_of(std::size_t* bytes, std::string* error, const std::string& path, void*) {
+    std::error_code code;
+    const std::uintmax_t size = fs::file_size(path, code);
+    if (code) {
+        *error += code.message();
+        return false;
+    }
+    *bytes = static_cast<std::size_t>(size);
+    return true;
+}
+
+/// tinygltf asks for a file's size since 2.8.10; its header does not state a version.
+template <class Callbacks>
+Callbacks reading_callbacks(BufferFiles& files) {
+    Callbacks callbacks{};
+    callbacks.FileExists = &exists;
+    callbacks.ExpandFilePath = &unexpanded;
+    callbacks.ReadWholeFile = &read_whole;
+    callbacks.WriteWholeFile = &write_nothing;
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })
+        callbacks.GetFileSizeInBytes = &size_of;
+    callbacks.user_data = &files;
+    return callbacks;
+}
+
 bool skip_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*) {
     return true;
 }
@@ -194,7 +219,7 @@ tinygltf::Model load_model(std::span<const unsigned char> file, const std::files
         files.folder += '/';
     tinygltf::TinyGLTF loader;
     loader.SetImageLoader(&skip_image, nullptr);
-    loader.SetFsCallbacks({&exists, &unexpanded, &read_whole, &write_nothing, &files});
+    loader.SetFsCallbacks(reading_callbacks<tinygltf::FsCallbacks>(files));
 
     tinygltf::Model model;
     std::string error, notes;

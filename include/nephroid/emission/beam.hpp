@@ -55,7 +55,8 @@ template <Scalar T>
     const auto turns_left = [](const auto& a, const auto& b, const auto& c) {
         return difference_of_products<T>(b.x - a.x, c.y - a.y, b.y - a.y, c.x - a.x) > T(0);
     };
-    std::ranges::sort(points, [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+    std::sort(points.begin(), points.end(),
+              [](const auto& a, const auto& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
 
     std::vector<BeamCoordinates<T>> hull;
     const auto add_chain = [&](auto from, auto to) {

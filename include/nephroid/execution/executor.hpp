@@ -2,6 +2,8 @@
 /// @file  Who runs the work: the calling thread, a few of our own, or the renderer's pool.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <concepts>

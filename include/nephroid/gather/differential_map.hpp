@@ -108,11 +108,11 @@ private:
         directions_.reserve(map_.slots());
         for (std::size_t slot = 0; slot < map_.slots(); ++slot) {
             const Splat<V, F>& splat = all.splats[map_.index(slot)];
-            std::size_t column = 0;
-            for (const V& v : {splat.centre, splat.row_a, splat.row_b, splat.row_n, splat.normal}) {
-                columns_[column++].push_back(t::x(v));
-                columns_[column++].push_back(t::y(v));
-                columns_[column++].push_back(t::z(v));
+            const std::array<V, columns / 3> vectors{splat.centre, splat.row_a, splat.row_b, splat.row_n, splat.normal};
+            for (std::size_t i = 0; i < vectors.size(); ++i) {
+                columns_[3 * i].push_back(t::x(vectors[i]));
+                columns_[3 * i + 1].push_back(t::y(vectors[i]));
+                columns_[3 * i + 2].push_back(t::z(vectors[i]));
             }
             peaks_.push_back(splat.peak);
             directions_.push_back(splat.direction);

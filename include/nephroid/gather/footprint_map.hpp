@@ -80,7 +80,7 @@ private:
         if (!finite)
             invalid_argument(std::string(who) + ": box " + std::to_string(i) + " is not finite; every box must be");
         if (!(side > T(0)))
-            return std::numeric_limits<int>::min();
+            return (std::numeric_limits<int>::min)();
         int exponent = 0;
         (void)std::frexp(double(side), &exponent);
         return (exponent - (exponent & 1)) / 2;

@@ -27,7 +27,7 @@ namespace detail {
 /// @param name      of that argument, for the message: "reference"
 template <Pixels Image>
 void require_finite_pixels(const char* function, const char* name, const Image& image) {
-    if (std::ranges::empty(image))
+    if (std::ranges::size(image) == 0)
         invalid_argument(std::string(function) + ": " + name + " has no pixels");
 
     std::size_t index = 0;

@@ -22,9 +22,11 @@ struct FewPoints {
     FewPoints(std::span<const T> px, std::span<const T> py, std::span<const T> pz)
         : room(4 * px.size()), x(room.data()), y(x + px.size()), z(y + px.size()), distance2(z + px.size()),
           size(px.size()) {
-        for (std::size_t axis = 0; const std::span<const T> coordinate : {px, py, pz}) {
+        const std::array<std::span<const T>, 3> coordinates{px, py, pz};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::span<const T> coordinate = coordinates[axis];
             std::copy(coordinate.begin(), coordinate.end(), room.data() + size * axis);
-            middle[axis++] = std::accumulate(coordinate.begin(), coordinate.end(), T(0)) / T(size);
+            middle[axis] = std::accumulate(coordinate.begin(), coordinate.end(), T(0)) / T(size);
         }
         measure(middle[0], middle[1], middle[2]);
         if (some_equally_far()) {
@@ -119,6 +121,25 @@ private:
         size = kept;
     }
 };
+
+/// How many points near the middle of a cloud are measured, and the most neighbours of each. (nvcc 12 does not take
+/// constants of a function template as the size of an array.)
+inline constexpr std::size_t spacing_probes = 4, spacing_neighbours = 8;
+
+/// Sorts four numbers, none of them NaN. g++ 14 and later warn of array bounds where std::sort gets so few.
+template <Scalar T>
+void sort_four(std::array<T, 4>& numbers) {
+    const auto order = [&](std::size_t low, std::size_t high) {
+        const T a = numbers[low], b = numbers[high];
+        numbers[low] = b < a ? b : a;
+        numbers[high] = b < a ? a : b;
+    };
+    order(0, 1);
+    order(2, 3);
+    order(0, 2);
+    order(1, 3);
+    order(1, 2);
+}
 } // namespace detail
 
 /// The spacing p of a small cloud of points that sample a surface, such that a square lattice of side p gives p:
@@ -133,21 +154,21 @@ private:
 /// @return  world units; 0 if all points coincide or there is only one
 template <Scalar T>
 [[nodiscard]] T point_spacing(std::span<const T> x, std::span<const T> y, std::span<const T> z) {
-    constexpr std::size_t most_neighbours = 8, most_probes = 4;
     detail::FewPoints<T> points(x, y, z);
     if (points.size < 2)
         return T(0);
-    const std::size_t probes = (std::min)(most_probes, points.size);
-    const std::size_t neighbours = (std::min)(most_neighbours, points.size - 1);
+    const std::size_t probes = (std::min)(detail::spacing_probes, points.size);
+    const std::size_t neighbours = (std::min)(detail::spacing_neighbours, points.size - 1);
     // The squared distances of the first n lattice neighbours add up to n p² for n <= 4 and to (2 n − 4) p² beyond.
     const T lattice = neighbours <= 4 ? T(neighbours) : T(2 * neighbours - 4);
 
-    std::array<std::size_t, most_probes> centres{};
+    std::array<std::size_t, detail::spacing_probes> centres{};
     points.nearest(std::span(centres).first(probes));
-    std::array<T, most_probes> spacing2 = points.template sums_of_nearest<most_neighbours + 1>(centres, neighbours + 1);
-    for (T& sum : spacing2)
-        sum = sum / lattice;
-    std::sort(spacing2.begin(), spacing2.begin() + std::ptrdiff_t(probes));
+    std::array<T, detail::spacing_probes> spacing2 =
+        points.template sums_of_nearest<detail::spacing_neighbours + 1>(centres, neighbours + 1);
+    for (std::size_t k = 0; k < spacing2.size(); ++k) // those that are not measured come last
+        spacing2[k] = k < probes ? spacing2[k] / lattice : std::numeric_limits<T>::infinity();
+    detail::sort_four(spacing2);
     return sqrt(T(0.5) * (spacing2[(probes - 1) / 2] + spacing2[probes / 2]));
 }
 

@@ -88,7 +88,7 @@ template <std::floating_point T, std::uint32_t Base>
     } else {
         constexpr auto& reversed_digits = detail::halton_reversed_digits<Base>;
         constexpr std::uint64_t block = reversed_digits.size();
-        constexpr std::uint64_t last = std::uint64_t(std::numeric_limits<std::int64_t>::max()) / block;
+        constexpr std::uint64_t last = std::uint64_t((std::numeric_limits<std::int64_t>::max)()) / block;
 
         std::uint64_t numerator = 0, denominator = 1;
         for (; index != 0 && denominator <= last; index /= block, denominator *= block)

@@ -2,6 +2,8 @@
 /// @file  Stateless mixing of a 64-bit word, the reversal of its bits, and the number in [0, 1) made from it.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <algorithm>
 #include <concepts>
 #include <cstdint>

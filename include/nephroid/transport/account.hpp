@@ -2,6 +2,8 @@
 /// @file  Where all the light went: every unit of emitted flux, by reason.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>

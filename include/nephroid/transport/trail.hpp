@@ -2,6 +2,8 @@
 /// @file  What a walk may note on its way: nothing, or a signature of the path.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <concepts>
 #include <cstdint>
 

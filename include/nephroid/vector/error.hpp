@@ -2,6 +2,8 @@
 /// @file  How the library reports a wrong call: one place, with and without exceptions.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <cstdlib>
 #include <string>
 

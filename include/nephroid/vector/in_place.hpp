@@ -2,6 +2,8 @@
 /// @file  Objects made where they are to stay.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <type_traits>
 
 namespace nephroid {

@@ -2,6 +2,8 @@
 /// @file  Weighted linear least squares with a few unknowns, row after row.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>

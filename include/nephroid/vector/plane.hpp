@@ -2,6 +2,8 @@
 /// @file  Vectors and matrices of the plane, in double precision: what shapes a footprint.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <algorithm>
 #include <cmath>
 

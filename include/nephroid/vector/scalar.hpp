@@ -2,6 +2,8 @@
 /// @file  What a scalar is, and the mathematical functions that the library calls on one.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <bit>
 #include <cmath>
 #include <concepts>

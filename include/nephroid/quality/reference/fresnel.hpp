@@ -2,6 +2,8 @@
 /// @file  How much unpolarised light passes from one dielectric into another.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <cmath>
 
 namespace nephroid::reference::detail {

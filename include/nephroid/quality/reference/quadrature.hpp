@@ -2,6 +2,8 @@
 /// @file  Gauss-Legendre quadrature and Chebyshev interpolation, for functions that are analytic on their interval.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>

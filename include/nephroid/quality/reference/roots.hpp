@@ -2,6 +2,8 @@
 /// @file  Roots of functions of one variable: one in a bracket, and all in an interval.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>

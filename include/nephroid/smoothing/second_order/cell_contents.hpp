@@ -2,6 +2,8 @@
 /// @file  Which photons lie in which cell of a grid: a counting sort.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
