@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/gather/differential_map.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/gather/estimate_at.hpp"
 #include "nephroid/splat/photon_splatter.hpp"
 

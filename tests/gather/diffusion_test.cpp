@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/gather/diffusion.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/gather/fixed_range.hpp"
 
 #include "gather/stored_photons.hpp"

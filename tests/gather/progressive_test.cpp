@@ -6,6 +6,7 @@
 #include "nephroid/gather/trace_photons.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/random.hpp"
 
 #include "gather/stored_photons.hpp"
