@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 using namespace nephroid;
+using nephroid::detail::FootprintMap;
 using tests::Draws;
 
 namespace {
