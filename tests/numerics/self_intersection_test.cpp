@@ -32,7 +32,7 @@ int times(int usual, int in_full) {
     return wanted && *wanted == '1' ? in_full : usual;
 }
 
-/// Where a scene is, and how large.
+/// The size of a scene, and its distance from the origin.
 struct Place {
     double size, distance;
 };
@@ -45,7 +45,7 @@ Point<double> direction(Draws& draws) {
     return {as_double(d.x), as_double(d.y), as_double(d.z)};
 }
 
-/// A unit direction that leaves to the side of n: anywhere, or within a millionth to a hundredth of the tangent plane.
+/// A unit direction to the side of n: any one, or one within a millionth to a hundredth of the tangent plane.
 Point<double> leaving(Draws& draws, const Point<double>& n) {
     const Point<double> d = direction(draws), across = d.across(n).unit();
     const double rise = draws.in(0, 1) < 0.5 ? std::abs(d.dot(n)) : std::exp(draws.in(std::log(1e-6), std::log(1e-2)));
@@ -61,7 +61,7 @@ Point<double> widen(const Vec<T>& v) {
     return {double(v.x), double(v.y), double(v.z)};
 }
 
-/// A ray towards a point of a surface that has the normal n there: from anywhere on one side, often at a low angle.
+/// A ray to a point of a surface with the normal n there: from anywhere on one side, often at a grazing angle.
 template <class T>
 struct Shot {
     Vec<T> origin, direction;
@@ -86,7 +86,7 @@ Vec<T> spawned(const H& hit, const Vec<T>& direction) {
     return walk.photon().position;
 }
 
-/// What went wrong, if anything, over many rays.
+/// The errors found over many rays.
 struct Departures {
     int rays = 0, wrong_side = 0, hit_again = 0;
 };
@@ -212,7 +212,7 @@ TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a wave meets it where 
     }
 }
 
-// Triangles thin and wide, flat and smooth. What leaves one meets it no more, to whichever side.
+// Triangles thin and wide, flat and smooth. A ray that leaves one to either side does not meet it again.
 TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a triangle meets it again", T, float, double) {
     for (const Place& place : places<T>) {
         CAPTURE(place.size);
