@@ -4,7 +4,7 @@
 
 #include "nephroid/emission/light.hpp"
 #include "nephroid/emission/spread.hpp"
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/sequence.hpp"
 #include "nephroid/transport/walk.hpp"
 

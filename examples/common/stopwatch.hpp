@@ -2,7 +2,7 @@
 /// @file  Seconds of wall clock: a stopwatch, and an executor that tells the phases of a pass from each other.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 
 #include <chrono>
 #include <utility>

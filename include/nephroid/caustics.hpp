@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/without_tangents.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/pass/traced_batch.hpp"
 #include "nephroid/sequence/halton.hpp"

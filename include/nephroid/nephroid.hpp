@@ -13,6 +13,7 @@
 #include "nephroid/emission/light/standard_lights.hpp"
 #include "nephroid/emission/without_tangents.hpp"
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/footprint/ellipse.hpp"
 #include "nephroid/footprint/kernel.hpp"
 #include "nephroid/footprint/policies.hpp"

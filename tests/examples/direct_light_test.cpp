@@ -3,6 +3,7 @@
 
 #include "examples/worlds.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/halton.hpp"
 #include "nephroid/transport/walk.hpp"
 

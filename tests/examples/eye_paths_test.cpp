@@ -3,6 +3,8 @@
 
 #include "examples/worlds.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>

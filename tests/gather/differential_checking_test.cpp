@@ -10,7 +10,7 @@ using tests::complaint_of;
 
 namespace {
 
-/// Photons about the origin such that the n-th has seen an estimate f(n): r² = (n − 1)/f(n), all of flux 1.
+/// Photons about the origin such that the estimate within the n-th is f(n): r² = (n − 1)/f(n), all of flux 1.
 template <class F>
 std::size_t checked(std::size_t count, const DifferentialChecking& checking, const F& f) {
     using V = glm::dvec3;
@@ -30,13 +30,13 @@ std::size_t checked(std::size_t count, const DifferentialChecking& checking, con
 TEST_CASE("differential checking: even light is taken whole") {
     CHECK(checked(500, {}, [](double) { return 3.0; }) == 500);
     CHECK(checked(1, {}, [](double) { return 3.0; }) == 1);
-    // Up and down by a tenth at every look: within 2.5 deviations up to 600 photons.
+    // Up and down by a tenth at every check: within 2.5 deviations up to 600 photons.
     CHECK(checked(512, {.growth = 2}, [](double n) { return int(std::log2(n)) % 2 == 0 ? 1.0 : 1.1; }) == 512);
 }
 
-// Looks at 32, 64, 128, 256, 512 of ln f = -0.87, -1.04, -1.21, -1.39, -1.56, in intervals of significance times 0.180,
-// 0.126, 0.089, 0.063, 0.044 to either side. With 2 the first begins at -1.23 and the fourth ends at -1.26; with 3 the
-// first begins at -1.41 and the fifth ends at -1.43.
+// Checks at 32, 64, 128, 256, 512 of ln f = -0.87, -1.04, -1.21, -1.39, -1.56, in intervals of significance times
+// 0.180, 0.126, 0.089, 0.063, 0.044 to either side. With 2 the first begins at -1.23 and the fourth ends at -1.26; with
+// 3 the first begins at -1.41 and the fifth ends at -1.43.
 TEST_CASE("differential checking: a trend beyond chance is cut before the look that the first ones contradict") {
     for (const double sign : {-1.0, 1.0}) {
         const auto trend = [sign](double n) { return std::pow(n, 0.25 * sign); };
@@ -49,7 +49,8 @@ TEST_CASE("differential checking: a trend beyond chance is cut before the look t
     CHECK(checked(4096, {.growth = 2}, edge) == 256); // ln 2 against 2.5 (1/16 + 1/22.6) = 0.27
 }
 
-// What looks agree on is no extreme of the sequence: an early look that is off by two deviations does not end it.
+// The interval that checks agree on is no extreme of the sequence: an early check that is off by two deviations does
+// not end it.
 TEST_CASE("differential checking: a look that chance has moved does not stop it") {
     const auto first_is_off = [](double n) { return n <= 32 ? 1 + 2 / std::sqrt(n) : 1.0; };
     CHECK(checked(4096, {.growth = 2}, first_is_off) == 4096);
@@ -57,13 +58,13 @@ TEST_CASE("differential checking: a look that chance has moved does not stop it"
 
 namespace {
 
-/// The estimates of many places with photons at random about them, relative to the truth: areas of disks that hold one
-/// photon more grow by exponential variates. Of all photons, and of those that are taken.
+/// The estimates at many points in random photons, relative to the truth, of all photons and of those that are taken.
+/// The area of the disk grows by an exponential variate with each photon.
 struct EvenLight {
     double rms_of_all = 0, rms = 0;
     int cut = 0;
 
-    /// @param dear_every  one photon of so many has a flux of 10, the others of 1; 0: none
+    /// @param dear_every  one photon in this many has a flux of 10, the others of 1; 0: none
     EvenLight(int places, std::size_t count, int dear_every, std::uint32_t seed) {
         using V = glm::dvec3;
         tests::Draws draw(seed);
@@ -96,8 +97,8 @@ struct EvenLight {
 
 } // namespace
 
-// 2.4% are cut, so 4.8 of 200, which are rarely more than 12, and the rms error grows by 7%. A rule that takes the look
-// where a trend began takes an extreme, and of a small count: with 3 deviations it cuts 1.4% and doubles the rms.
+// 2.4% are cut, so 4.8 of 200, which are rarely more than 12, and the rms error grows by 7%. A rule that takes the
+// check where a trend began takes an extreme, and of a small count: with 3 deviations it cuts 1.4% and doubles the rms.
 TEST_CASE("differential checking: even light with photons at random is hardly ever cut and its error hardly grows") {
     const EvenLight even(200, 4000, 0, 136);
     CAPTURE(even.rms_of_all);

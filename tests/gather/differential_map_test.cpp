@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/gather/differential_map.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/gather/estimate_at.hpp"
 #include "nephroid/splat/photon_splatter.hpp"
 
@@ -25,7 +26,7 @@ constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
 
 constexpr double spacing = 1.0 / 32;
 
-/// A floor, close below it its back, and a wall beside it.
+/// A floor, its back close below it, and a wall beside it.
 template <class T>
 std::vector<Vertex<Vec<T>>> room() {
     std::vector<Vertex<Vec<T>>> vertices;
@@ -100,7 +101,7 @@ void check(const Policies& policies, const Kernel& kernel, double width) {
         lit += expected[i].value > 100 * expected[i].tolerance;
     }
     CHECK(lit > 0.5 * double(vertices.size())); // else the tolerance would prove nothing
-    // What the splatter calls unseen is stored here: nobody has asked yet.
+    // Photons that the splatter counts as unseen are stored here: an estimate may need them later.
     const Statistics& stored = estimate.statistics();
     CHECK(stored[Fate::splatted].photons == account[Fate::splatted].photons + account[Fate::unseen].photons);
     CHECK(stored[Fate::collapsed].photons == account[Fate::collapsed].photons);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/gather/diffusion.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/gather/fixed_range.hpp"
 
 #include "gather/stored_photons.hpp"
@@ -238,6 +239,7 @@ TEST_CASE("diffusion: says which option cannot be") {
     };
     CHECK(complaint({.range = 1}) == "none");
     CHECK(complaint({.range = -1}).starts_with("nephroid::DiffusionEstimate: range is -1"));
+    CHECK(complaint({.range = 1e-200}).starts_with("nephroid::DiffusionEstimate: range is 1e-200, whose square"));
     CHECK(complaint({.range = 1, .gradient_count = 2}).find("gradient_count is 2") != std::string::npos);
     CHECK(complaint({.range = 1, .gradient_range = 0}).find("gradient_range is 0") != std::string::npos);
     CHECK(complaint({.range = 1, .diffusivity = 0}).find("diffusivity is 0") != std::string::npos);

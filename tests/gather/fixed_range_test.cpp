@@ -101,6 +101,8 @@ TEST_CASE("fixed range: says which option cannot be") {
     };
     CHECK(complaint({.range = 1}) == "none");
     CHECK(complaint({.range = 0}).starts_with("nephroid::FixedRange: range is 0"));
+    CHECK(complaint({.range = 1e-200}).starts_with("nephroid::FixedRange: range is 1e-200, whose square"));
+    CHECK(complaint({.range = 1e200}).starts_with("nephroid::FixedRange: range is 1e+200, whose square"));
     CHECK(complaint({.range = std::numeric_limits<double>::infinity()}).find("range is inf") != std::string::npos);
     CHECK(complaint({.range = 1, .normal_distance = 0}).find("normal_distance is 0") != std::string::npos);
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 using namespace nephroid;
+using nephroid::detail::FootprintMap;
 using tests::Draws;
 
 namespace {
@@ -19,7 +20,7 @@ struct Item {
     Box<scalar_t<V>> box;
 };
 
-/// Boxes from a millionth of the scene to all of it, flat ones and points among them, at random and in heaps.
+/// Boxes from a millionth of the scene to all of it, flat ones and points among them, at random and in clusters.
 template <class V>
 std::vector<Item<V>> items(int count) {
     using T = scalar_t<V>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/gather/nearest_photons.hpp"
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 
 #include "gather/stored_photons.hpp"
 #include "support/foreign_vectors.hpp"

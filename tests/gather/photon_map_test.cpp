@@ -15,7 +15,7 @@ using tests::Stored;
 
 namespace {
 
-/// Every photon is there once, with what belongs to it.
+/// Every photon is in the map once, with its own normal, direction and flux.
 template <class V>
 void check_against(const PhotonMap<V, scalar_t<V>>& map, const std::vector<Stored<V>>& photons) {
     std::vector<int> seen(photons.size());

@@ -6,6 +6,7 @@
 #include "nephroid/gather/trace_photons.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/random.hpp"
 
 #include "gather/stored_photons.hpp"
@@ -40,7 +41,7 @@ ProgressivePhotonMapping<V, scalar_t<V>> progressive_at(const std::vector<Vertex
     return ProgressivePhotonMapping<V, scalar_t<V>>(vertices, &Vertex<V>::position, &Vertex<V>::normal, options);
 }
 
-/// The rule by the letter: count all photons within the radius, shrink it, scale the flux.
+/// The rule as published: count all photons within the radius, shrink it, scale the flux.
 template <class V>
 void check_by_brute_force() {
     using T = scalar_t<V>;
@@ -207,6 +208,9 @@ TEST_CASE("progressive: says which option cannot be") {
     };
     CHECK(complaint({.radius = 1}) == "none");
     CHECK(complaint({.radius = 0}).starts_with("nephroid::ProgressivePhotonMapping: radius is 0"));
+    CHECK(complaint({.radius = 1e-200}) == "nephroid::ProgressivePhotonMapping: radius is 1e-200, whose square the "
+                                           "scalar type cannot hold; use another unit of length");
+    CHECK(complaint({.radius = 1e200}).starts_with("nephroid::ProgressivePhotonMapping: radius is 1e+200, whose"));
     CHECK(complaint({.radius = 1, .alpha = 0}).find("alpha is 0") != std::string::npos);
     CHECK(complaint({.radius = 1, .alpha = 1.5}).find("alpha is 1.5") != std::string::npos);
     auto odd = vertices;
@@ -220,4 +224,5 @@ TEST_CASE("progressive: says which option cannot be") {
               return 0;
           }).find("emitted is 0") != std::string::npos);
     CHECK(complaint_of([] { return ShrinkingRadius({.radius = -1}); }).find("radius is -1") != std::string::npos);
+    CHECK(complaint_of([] { return ShrinkingRadius({.radius = 1e-200}); }).find("whose square") != std::string::npos);
 }

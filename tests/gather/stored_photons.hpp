@@ -38,8 +38,8 @@ template <class V>
             make_vector<V>(T(0), T(0), T(-side))};
 }
 
-/// Photons at random over the unit square, of fluxes that add up to one for irradiance 1. Their places are multiples of
-/// 2^-24, which float has exactly.
+/// Random photons on the unit square, whose fluxes add up to one for irradiance 1. Their coordinates are multiples of
+/// 2^-24, which are exact in float.
 template <class V>
 [[nodiscard]] std::vector<Stored<V>> random_photons(std::size_t count, std::uint32_t seed) {
     Draws draw(seed);
@@ -63,7 +63,7 @@ template <class V>
     return photons;
 }
 
-/// A photon as seen from a place: squared distance, height over the tangent plane, flux.
+/// A photon relative to a position: squared distance, height above the tangent plane, flux.
 struct Seen {
     double distance2, height, flux;
     glm::dvec3 offset;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Two kinds of numbers that paths are computed in, beside the library's: `Wide`, for references, and `Dual`,
-///        which carries its own derivatives, for condition numbers. Points over either.
+/// @file  Two kinds of numbers in which the tests compute paths: `Wide`, for references, and `Dual`, which carries its
+///        derivatives, for condition numbers; and points over either.
 #pragma once
 
 #include "support/space.hpp"
@@ -53,13 +53,13 @@ struct Dual {
 [[nodiscard]] inline double as_double(const Wide& a) { return static_cast<double>(a); }
 [[nodiscard]] inline double as_double(double a) { return a; }
 
-/// The digits of a number's type, in bits.
+/// The number of significant bits of a number's type.
 template <class S>
 inline constexpr int digits_of = 53;
 template <>
 inline constexpr int digits_of<Wide> = Wide::digits;
 
-/// Sine and cosine by Taylor's series after the quarter turns are taken off.
+/// Sine and cosine by Taylor's series, after subtracting quarter turns.
 struct SineCosine {
     Wide sine, cosine;
 };
@@ -113,7 +113,7 @@ struct Point {
         return sqrt(dot(*this));
     }
     [[nodiscard]] Point unit() const { return (S(1) / length()) * *this; }
-    /// Without its part along the unit vector n.
+    /// The vector without its part along the unit vector n.
     [[nodiscard]] Point across(const Point& n) const { return *this - dot(n) * n; }
 };
 
@@ -125,7 +125,7 @@ template <class S, class From>
         return {S(p.x), S(p.y), S(p.z)};
 }
 
-/// Bits, not std::isfinite: compilers take that for true under -ffast-math.
+/// By its bits: -ffast-math makes std::isfinite always true.
 [[nodiscard]] inline bool is_finite(double x) { return (std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff) != 0x7ff; }
 [[nodiscard]] inline bool is_finite(const Point<double>& p) {
     return is_finite(p.x) && is_finite(p.y) && is_finite(p.z);
@@ -136,7 +136,7 @@ template <class S, class From>
     return {p.x.d[j], p.y.d[j], p.z.d[j]};
 }
 
-/// Any two unit vectors across the unit vector n and across each other.
+/// Two unit vectors orthogonal to the unit vector n and to each other.
 [[nodiscard]] inline std::array<Point<double>, 2> two_across(const Point<double>& n) {
     const Point<double> other = std::abs(n.x) < 0.6 ? Point<double>{1, 0, 0} : Point<double>{0, 1, 0};
     const Point<double> u = n.cross(other).unit();

@@ -49,7 +49,7 @@ class Generator {
 public:
     Generator(Group group, std::uint32_t seed) : group_(group), draws_(seed) {}
 
-    /// Nothing if the dice made no path: a ball was missed, a ray left through the wrong side.
+    /// Nothing if the random numbers made no path: the ray missed a ball, or left through the wrong side.
     [[nodiscard]] std::optional<Chain> next() {
         Chain chain;
         const int events = 1 + static_cast<int>(draws_.in(0, 6));
@@ -66,7 +66,7 @@ public:
             double distance = size_ * draws_.in(0.3, 2);
             if (is_special && group_ == Group::long_transfer) {
                 distance = 1e5;
-                size_ = 1e3; // what comes then is as large as the flight's rounding in float asks for
+                size_ = 1e3; // what follows is large enough for the rounding of the flight in float
             }
             if (is_receiver && group_ == Group::near_fold) {
                 const auto there = distance_to_fold(chain);
@@ -114,7 +114,7 @@ private:
         const Point<double> side = std::cos(turn) * u + std::sin(turn) * v;
         return std::cos(angle) * n + std::sin(angle) * side;
     }
-    /// A normal that a ray meets at this angle of incidence.
+    /// A normal to which a ray has this angle of incidence.
     [[nodiscard]] Point<double> facing(const Point<double>& w, double angle) { return tilted(-w, angle); }
 
     /// From a point, from an area, or from both: lengths of a third of the scene, a third of a radian.
@@ -167,7 +167,7 @@ private:
         return draws_.in(0, most);
     }
 
-    /// Lays the surface through a point so that its normal there is n.
+    /// Moves the surface through a point so that its normal there is n.
     void place(Surface<double>& s, const Point<double>& p, const Point<double>& n, bool is_special) {
         about_ = p;
         const bool small = is_special && group_ == Group::small_radius;
@@ -209,7 +209,7 @@ private:
             break;
         }
         case Kind::triangle: {
-            // The face is tilted against the interpolated normal, but not where the angle at it is what matters.
+            // The face is tilted against the interpolated normal, except where the case is about the angle at the face.
             const bool exact = is_special && (grazes() || is_critical());
             const Point<double> face = exact ? n : tilted(n, draws_.in(0, 0.1));
             const auto [e, f] = two_across(face);
@@ -221,7 +221,7 @@ private:
                 s.point[i] = p + offset;
                 s.point[i + 3] = n + bend * offset;
             }
-            // Their normals are moved so that n is what is interpolated at p.
+            // The vertices' normals are changed so that n is interpolated at p.
             const auto [b1, b2] = coordinates_in(s, p);
             sum = s.point[3] + b1 * (s.point[4] - s.point[3]) + b2 * (s.point[5] - s.point[3]);
             for (std::size_t i = 3; i < 6; ++i)
@@ -239,7 +239,7 @@ private:
             x = rounded(x);
     }
 
-    /// Whether the path is as it was meant to be.
+    /// Whether the path is the case that was intended.
     [[nodiscard]] bool accept(const Surface<double>& s, const Surface<Wide>& wide, const Line<Wide>& ray,
                               const Meeting<Wide>& m, double distance, bool is_special, bool is_receiver) const {
         const Point<double> off = lift<double>(Point<Wide>(m.position - ray.x)) - distance * lift<double>(ray.w);
@@ -258,7 +258,7 @@ private:
         return passes == (leaves * with_face > 0);
     }
 
-    /// A flight to where the determinant of the footprint is 1e-3 to 1e-7 of the product of its lengths.
+    /// A flight to a point where the determinant of the footprint is 1e-3 to 1e-7 of the product of its lengths.
     [[nodiscard]] std::optional<double> distance_to_fold(const Chain& chain) {
         Steady steady;
         Line<Dual> ray = dual_emission(chain, steady);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The oracle: a path over a chain of surfaces, its derivatives by differences in wide precision, and how much
-///        they change when the numbers that define the problem do.
+/// @file  The oracle: a path over a chain of surfaces, its derivatives by differences in wide precision, and their
+///        condition, that is how much they change with the numbers that define the problem.
 #pragma once
 
 #include "numerics/surface.hpp"
@@ -9,8 +9,8 @@
 
 namespace nephroid::tests::numerics {
 
-/// A photon and the surfaces that it meets, the receiver last. All numbers are of the precision that the library is
-/// tried in: they are the problem, without error.
+/// A photon and the surfaces that it meets, the receiver last. All numbers have the precision of the library's test, so
+/// they define the problem without error.
 struct Chain {
     Point<double> position, direction;
     std::array<Point<double>, 2> d_position, d_direction; ///< the emission's tangents
@@ -18,7 +18,7 @@ struct Chain {
     std::vector<Point<double>> meetings; ///< where, to double: one for each surface
 };
 
-/// Changes nothing.
+/// Perturbs nothing.
 struct Steady {
     template <class... Anything>
     void number(Anything&...) const {}
@@ -30,7 +30,7 @@ struct Steady {
     void tangents(Anything&...) const {}
 };
 
-/// Changes each number that it is shown by plus or minus `delta`, relative: what one rounding can do.
+/// Perturbs each number by plus or minus `delta`, relative, as one rounding can.
 class Nudge {
 public:
     Nudge(double delta, std::uint32_t seed) : delta_(delta), draws_(seed) {}

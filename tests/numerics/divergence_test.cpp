@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where tangents outgrow their scalar, and where a ray lies in its surface to rounding: bounded and counted, or
-///        ended and counted, never infinity or NaN.
+/// @file  Tangents that outgrow their scalar are bounded and counted, and photons whose ray lies in a surface to
+///        rounding end and are counted: there is never infinity or NaN.
 #include "nephroid/splat/splat.hpp"
 #include "nephroid/vector/glm.hpp"
 
@@ -66,7 +66,7 @@ std::vector<Vertex<T>> lattice() {
     return vertices;
 }
 
-/// A pane that changes nothing, and behind it a floor.
+/// A pane of index 1, and behind it a floor.
 template <class T>
 struct PaneAndFloor {
     using Hit = SurfaceHit<Vec<T>, Flat>;
@@ -137,8 +137,8 @@ TEST_CASE_TEMPLATE("divergence: a tangent within range is untouched and one beyo
     CHECK(brought(steep).d_position == V(T(1) / T(16)));
 }
 
-// A ray may meet a plane at any small angle: the footprint is one over its cosine, until that is beyond all meaning.
-// Then the photon ends, and its flux is booked as invalid.
+// A ray may meet a plane at any small angle: the footprint grows like one over the cosine, until it overflows. Then the
+// photon ends, and its flux counts as invalid.
 TEST_CASE_TEMPLATE("divergence: a ray that lies in its surface ends in the account and one that nearly does is bounded",
                    T, float, double) {
     const auto vertices = lattice<T>();
@@ -159,7 +159,7 @@ TEST_CASE_TEMPLATE("divergence: a ray that lies in its surface ends in the accou
         if (!deposit) {
             CHECK(account[Fate::invalid].photons == 1);
             CHECK(account[Fate::invalid].flux == 1);
-            CHECK(power > 36); // never where a footprint means something
+            CHECK(power > 36); // never where a footprint is useful
             ++ended;
             continue;
         }
@@ -176,8 +176,7 @@ TEST_CASE_TEMPLATE("divergence: a ray that lies in its surface ends in the accou
     CHECK(ended > 0);
 }
 
-// The flags are not asked: under -ffast-math std::isfinite is true, and the account would not know what became of a
-// photon.
+// Not by std::isfinite, which -ffast-math makes always true: the account would then miss photons.
 TEST_CASE_TEMPLATE("divergence: infinity and NaN are known by their bits with any compiler flags", T, float, double) {
     const std::vector<T> bad{std::numeric_limits<T>::infinity(), -std::numeric_limits<T>::infinity(),
                              std::numeric_limits<T>::quiet_NaN()};

@@ -27,7 +27,7 @@ constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
 
 double log_uniform(Draws& draws, double low, double high) { return std::exp(draws.in(std::log(low), std::log(high))); }
 
-/// An ellipse rounded to T, and what it really is: its covariance in the plane across the normal that a and b span.
+/// An ellipse rounded to T, and its exact covariance in the plane that a and b span.
 template <class T>
 struct Case {
     Ellipse<Vec<T>> ellipse;
@@ -40,7 +40,7 @@ Case<T> random_ellipse(Draws& draws) {
     const Space n = draws.direction(), u = n.cross(draws.direction()).unit(), v = n.cross(u);
     const double area = log_uniform(draws, 1e-20, 1e20), ratio = log_uniform(draws, 1, 1e12), turn = draws.in(0, 6.28);
     const Wide major = std::sqrt(area * ratio), minor = std::sqrt(area / ratio);
-    // [a b] = [major u, minor v] times a rotation: as skewed as can be, or not at all.
+    // [a b] = [major u, minor v] times a rotation: fully skewed, or not at all.
     const Wide c = std::cos(turn), s = std::sin(turn);
     const Space x = major * u, y = minor * v;
     Case<T> result;
@@ -102,7 +102,7 @@ TEST_CASE_TEMPLATE("footprint range: the filter matrix times the footprint is th
         }
         ++tried;
         const Space row_a = widen(m.row_a), row_b = widen(m.row_b);
-        // A point of the outline is off by the rounding of the rows, times the longer axis.
+        // The error of a point of the outline is the rounding of the rows times the longer axis.
         const double tolerance = 8 * epsilon<T> * c.skew;
         CHECK(std::abs(static_cast<double>(row_a.dot(c.a)) - 1) <= tolerance);
         CHECK(std::abs(static_cast<double>(row_b.dot(c.b)) - 1) <= tolerance);
@@ -167,7 +167,7 @@ TEST_CASE_TEMPLATE("footprint range: a footprint beyond any scene is bounded to 
         CHECK(all_finite(c.ellipse.b));
         if (verdict == Verdict::bounded) {
             ++bounded;
-            // What was cut off leaves its rounding.
+            // The part that was subtracted leaves its rounding.
             CHECK(double(radii(c.ellipse).major) <= double(diagonal) + 64 * epsilon<T> * (double(diagonal) + c.major));
         }
     }

@@ -100,7 +100,7 @@ private:
     mutable std::size_t next_ = 0; // one walk a scene
 };
 
-/// Draws nothing that matters: no choice is left on a chain.
+/// A sampler whose numbers do not matter, as a chain leaves no choice.
 struct NoChoice {
     template <class T>
     [[nodiscard]] T next() const {
@@ -124,8 +124,8 @@ struct Outcome {
     double determinant; ///< of the footprint, by the library's own cross product
 };
 
-/// The tangents where `nephroid::walk` deposits the photon. It does not tell their directions: those come from the same
-/// steps taken one by one. Nothing if the photon did not arrive.
+/// The tangents where `nephroid::walk` deposits the photon; nothing if the photon did not arrive. A deposit has no
+/// `d_direction`: that comes from the same steps, taken one by one.
 template <class T>
 [[nodiscard]] std::optional<Outcome<T>> run_library(const Chain& chain, Statistics& account) {
     using V = glm::vec<3, T>;

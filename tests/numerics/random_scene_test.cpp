@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Whatever the scene, whatever the photon: walks and splats end, in finite numbers, and the account balances.
+/// @file  For any scene and any photon walks and splats end, all numbers are finite, and the account balances.
 ///        NEPHROID_TESTS_LONG=1 follows a million photons of each precision.
 #if __has_include("common/scene.hpp")
 
@@ -34,8 +34,7 @@ using nephroid::tests::Draws;
 template <class T>
 using Vec = glm::vec<3, T>;
 
-// GCC keeps track of exceptions unless it is told not to; clang takes the liberty to raise them where no number is
-// used.
+// GCC respects floating-point exceptions by default; clang may raise them for numbers that are not used.
 #if defined(__GNUC__) && !defined(__clang__) && !defined(__FAST_MATH__)
 constexpr bool exceptions_are_kept = true;
 #else
@@ -65,7 +64,7 @@ public:
     }
 };
 
-/// A user's code in between, which may do with exceptions what it likes: a box test multiplies zero by infinity.
+/// Allows exceptions in the user's code in between: a box test multiplies zero by infinity.
 class Unwatched {
 public:
     Unwatched() { std::feholdexcept(&before_); }
@@ -96,7 +95,7 @@ struct UnwatchedScene {
     }
 };
 
-/// A world of any size, anywhere.
+/// A scene of any size, at any distance from the origin.
 template <class T>
 class World {
 public:
@@ -171,7 +170,7 @@ public:
         return Set(std::move(lights));
     }
 
-    /// Any ray with any tangents: none, tiny, as long as the world, at right angles to the ray.
+    /// Any ray with any tangents: zero, tiny, as long as the scene, orthogonal to the ray.
     [[nodiscard]] Photon<Vec<T>, Vec<T>> photon() {
         using V = Vec<T>;
         const V d = flip() ? direction() : V(T(0), T(0), flip() ? T(1) : T(-1)); // along an axis as well
@@ -183,7 +182,7 @@ public:
         return {place(), d, color(), {Tangent<V>{tangent(size_), tangent(1)}, Tangent<V>{tangent(size_), tangent(1)}}};
     }
 
-    /// What a camera might have seen on the floor.
+    /// Vertices on the floor as a camera might see them.
     struct Vertex {
         Vec<T> position, normal;
     };
@@ -282,7 +281,7 @@ private:
     ExampleScene<T> scene_;
 };
 
-/// What rounding may take from an account, relative: fluxes are weighted in T, and summed in double, a few sums a
+/// The relative error of an account by rounding: fluxes are weighted in T and summed in double, a few sums for each
 /// photon.
 template <class T>
 constexpr double account_rounding = 64 * double(std::numeric_limits<T>::epsilon()) +

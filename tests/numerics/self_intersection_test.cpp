@@ -32,7 +32,7 @@ int times(int usual, int in_full) {
     return wanted && *wanted == '1' ? in_full : usual;
 }
 
-/// Where a scene is, and how large.
+/// The size of a scene, and its distance from the origin.
 struct Place {
     double size, distance;
 };
@@ -45,7 +45,7 @@ Point<double> direction(Draws& draws) {
     return {as_double(d.x), as_double(d.y), as_double(d.z)};
 }
 
-/// A unit direction that leaves to the side of n: anywhere, or within a millionth to a hundredth of the tangent plane.
+/// A unit direction to the side of n: any one, or one within a millionth to a hundredth of the tangent plane.
 Point<double> leaving(Draws& draws, const Point<double>& n) {
     const Point<double> d = direction(draws), across = d.across(n).unit();
     const double rise = draws.in(0, 1) < 0.5 ? std::abs(d.dot(n)) : std::exp(draws.in(std::log(1e-6), std::log(1e-2)));
@@ -61,7 +61,7 @@ Point<double> widen(const Vec<T>& v) {
     return {double(v.x), double(v.y), double(v.z)};
 }
 
-/// A ray towards a point of a surface that has the normal n there: from anywhere on one side, often at a low angle.
+/// A ray to a point of a surface with the normal n there: from anywhere on one side, often at a grazing angle.
 template <class T>
 struct Shot {
     Vec<T> origin, direction;
@@ -86,7 +86,7 @@ Vec<T> spawned(const H& hit, const Vec<T>& direction) {
     return walk.photon().position;
 }
 
-/// What went wrong, if anything, over many rays.
+/// The errors found over many rays.
 struct Departures {
     int rays = 0, wrong_side = 0, hit_again = 0;
 };
@@ -127,7 +127,7 @@ void check(const Departures& seen, int at_least) {
 }
 
 template <class T>
-Vec<T> center_of(Draws& draws, const Place& place) {
+Vec<T> centre_of(Draws& draws, const Place& place) {
     return narrow<T>(place.distance * direction(draws));
 }
 #endif
@@ -143,13 +143,13 @@ TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a sphere meets it wher
         Departures seen;
         const int count = times(4000, 150000);
         for (int i = 0; i < count; ++i) {
-            const Vec<T> center = center_of<T>(draws, place);
+            const Vec<T> centre = centre_of<T>(draws, place);
             const T radius = T(place.size * draws.in(0.5, 2));
             const Point<double> n = direction(draws);
-            const auto shot = shot_at<T>(draws, widen(center) + double(radius) * n, n, place.size);
-            const Point<Wide> c = lift<Wide>(widen(center));
+            const auto shot = shot_at<T>(draws, widen(centre) + double(radius) * n, n, place.size);
+            const Point<Wide> c = lift<Wide>(widen(centre));
             try_ray(
-                seen, draws, examples::Sphere<T>(center, radius), shot,
+                seen, draws, examples::Sphere<T>(centre, radius), shot,
                 [&](const Point<Wide>& p) { return (p - c).dot(p - c) - Wide(radius) * Wide(radius); }, true, false);
         }
         check(seen, count / 2);
@@ -164,7 +164,7 @@ TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a cylinder meets it wh
         Departures seen;
         const int count = times(4000, 150000);
         for (int i = 0; i < count; ++i) {
-            const Vec<T> base = center_of<T>(draws, place);
+            const Vec<T> base = centre_of<T>(draws, place);
             const T radius = T(place.size * draws.in(0.5, 2)), height = T(4 * place.size);
             const double turn = draws.in(0, 2 * std::numbers::pi);
             const Point<double> n{std::cos(turn), std::sin(turn), 0};
@@ -191,7 +191,7 @@ TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a wave meets it where 
         Departures seen;
         const int count = times(1000, 40000);
         for (int i = 0; i < count; ++i) {
-            const Vec<T> middle = center_of<T>(draws, place);
+            const Vec<T> middle = centre_of<T>(draws, place);
             const T a = T(0.04 * place.size * draws.in(0.1, 1)), kx = T(2 / place.size), ky = T(1 / place.size);
             const examples::SineWave<T> wave({.height = middle.z, .amplitude = a, .kx = kx, .ky = ky});
             const double x = double(middle.x) + place.size * draws.in(-1, 1), y = double(middle.y);
@@ -212,7 +212,7 @@ TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a wave meets it where 
     }
 }
 
-// Triangles thin and wide, flat and smooth. What leaves one meets it no more, to whichever side.
+// Triangles thin and wide, flat and smooth. A ray that leaves one to either side does not meet it again.
 TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a triangle meets it again", T, float, double) {
     for (const Place& place : places<T>) {
         CAPTURE(place.size);
@@ -221,7 +221,7 @@ TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a triangle meets it ag
         Departures seen;
         const int count = times(2000, 60000);
         for (int i = 0; i < count; ++i) {
-            const Vec<T> middle = center_of<T>(draws, place);
+            const Vec<T> middle = centre_of<T>(draws, place);
             const double thin = draws.in(0, 1) < 0.3 ? 1e-3 : 1;
             examples::MeshData<T> data;
             for (int k = 0; k < 3; ++k)
@@ -258,7 +258,7 @@ TEST_CASE_TEMPLATE("self-intersection: no ray that leaves a quad or a disk meets
         Departures seen;
         const int count = times(2000, 60000);
         for (int i = 0; i < count; ++i) {
-            const Vec<T> middle = center_of<T>(draws, place), normal = narrow<T>(direction(draws));
+            const Vec<T> middle = centre_of<T>(draws, place), normal = narrow<T>(direction(draws));
             const auto [e, f] = two_across(widen(normal).unit());
             const Vec<T> u = narrow<T>(place.size * e), v = narrow<T>(place.size * (0.5 * e + f));
             const Point<Wide> o = lift<Wide>(widen(middle));
@@ -301,14 +301,14 @@ TEST_CASE_TEMPLATE("self-intersection: photons meet a mirror ball once and a gla
         std::uint64_t arrived = 0, entered = 0;
         const int count = times(2000, 60000);
         for (int i = 0; i < count; ++i) {
-            const Vec<T> center = center_of<T>(draws, place);
+            const Vec<T> centre = centre_of<T>(draws, place);
             const T radius = T(place.size * draws.in(0.5, 2));
             const Point<double> n = direction(draws);
             const Point<double> from = leaving(draws, n);
-            const Vec<T> origin = narrow<T>(widen(center) + double(radius) * n + place.size * from);
+            const Vec<T> origin = narrow<T>(widen(centre) + double(radius) * n + place.size * from);
             const Photon<Vec<T>, T> photon{origin, narrow<T>(-from), T(1), {}};
             Halves sampler;
-            const examples::Sphere<T> ball(center, radius);
+            const examples::Sphere<T> ball(centre, radius);
             const Scene<T, T> mirror({{ball, 0}}, {M::mirror(T(1))});
             const Scene<T, T> glass({{ball, 0}}, {M::dielectric(1.5, false)});
             if (!mirror.intersect(photon.position, photon.direction, T(0), std::numeric_limits<T>::infinity()))
@@ -339,19 +339,19 @@ namespace {
 /// A tracer as small renderers have them: all in T, the textbook's quadratic, and the library's bound on its error.
 template <class T>
 struct PlainBall {
-    Vec<T> center;
+    Vec<T> centre;
     T radius;
 
     [[nodiscard]] std::optional<SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>> intersect(const Vec<T>& o, const Vec<T>& d,
                                                                                      T t_min, T t_max) const {
-        const Vec<T> from = o - center;
+        const Vec<T> from = o - centre;
         const T b = dot(from, d), c = dot(from, from) - radius * radius;
         const T under = b * b - c;
         if (!(under > T(0)))
             return std::nullopt;
         for (const T t : {-b - std::sqrt(under), -b + std::sqrt(under)})
             if (t > t_min && t < t_max) {
-                const Vec<T> n = normalize(Vec<T>(from + t * d)), at = center + radius * n;
+                const Vec<T> n = normalize(Vec<T>(from + t * d)), at = centre + radius * n;
                 return SurfaceHit<Vec<T>, ShapeOperator<Vec<T>>>{
                     t, at, n, n, sphere_curvature<Vec<T>>(radius), rounding_error(o, t, at)};
             }
@@ -372,7 +372,7 @@ TEST_CASE_TEMPLATE("self-intersection: a plain tracer with the library's roundin
         for (int i = 0; i < count; ++i) {
             const PlainBall<T> ball{narrow<T>(place.distance * direction(draws)), T(place.size * draws.in(0.5, 2))};
             const Point<double> n = direction(draws);
-            const auto shot = shot_at<T>(draws, widen(ball.center) + double(ball.radius) * n, n, place.size);
+            const auto shot = shot_at<T>(draws, widen(ball.centre) + double(ball.radius) * n, n, place.size);
             const auto hit = ball.intersect(shot.origin, shot.direction, T(0), std::numeric_limits<T>::infinity());
             if (!hit)
                 continue;
@@ -380,7 +380,7 @@ TEST_CASE_TEMPLATE("self-intersection: a plain tracer with the library's roundin
             if (!(dot(out, hit->geometric_normal) > T(0)))
                 continue;
             ++rays;
-            const Point<Wide> c = lift<Wide>(widen(ball.center));
+            const Point<Wide> c = lift<Wide>(widen(ball.centre));
             const auto height = [&](const Vec<T>& p) {
                 const Point<Wide> q = lift<Wide>(widen(p)) - c;
                 return as_double(q.dot(q) - Wide(ball.radius) * Wide(ball.radius));

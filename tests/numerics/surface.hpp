@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Analytic surfaces, and where a ray meets them: written once, for every kind of number. Not a line of it is
-///        the library's, and nowhere is there a derivative of a normal.
+/// @file  Analytic surfaces, and where a ray meets them, for every kind of number. Nothing here is the library's, and
+///        no normal is differentiated.
 #pragma once
 
 #include "numerics/arithmetic.hpp"
@@ -12,7 +12,7 @@ inline constexpr int kind_count = 6;
 inline constexpr std::array<const char*, kind_count> kind_names = {"plane", "sphere", "cylinder",
                                                                    "torus", "wave",   "triangle"};
 
-/// A surface and what it does with a ray. What the data mean depends on the kind:
+/// A surface, and whether it refracts or reflects. The meaning of the data depends on the kind:
 ///
 /// plane     point[0] on it, point[1] its normal
 /// sphere    point[0] centre, number[0] radius
@@ -75,7 +75,7 @@ template <class S>
     return {q.cross(e2).dot(face) / whole, e1.cross(q).dot(face) / whole};
 }
 
-/// @param about  near the meeting point: which of a torus's or a wave's is meant
+/// @param about  near the intersection that is meant, as a torus and a wave have several
 template <class S>
 [[nodiscard]] Meeting<S> meet(const Surface<S>& s, const Line<S>& ray, const Point<double>& about) {
     const Point<S>&x = ray.x, &w = ray.w;
@@ -116,7 +116,7 @@ template <class S>
     case Kind::wave:
         break;
     }
-    // Newton's method from close by; the last step but one is below the rounding, so the last is for the derivatives.
+    // Newton's method from nearby; the last step only serves the derivatives, as the one before is below rounding.
     S t = (lift<S>(about) - x).dot(w);
     for (int i = 0, left = 40; i < left; ++i) {
         const auto [value, gradient] = field(s, Point<S>(x + t * w));
@@ -129,14 +129,14 @@ template <class S>
     return {p, n, n};
 }
 
-/// What refraction leaves of the squared cosine: 1 − (η sin)². Not positive: total reflection.
+/// The squared cosine after refraction, 1 − (η sin)²; not positive in total reflection.
 template <class S>
 [[nodiscard]] S squared_cosine_beyond(const Surface<S>& s, const Point<S>& w, const Point<S>& n) {
     const Point<S> along = w.across(n);
     return S(1) - s.eta * s.eta * along.dot(along);
 }
 
-/// A direction after a surface: Snell scales its part along the surface; the length, which stays 1, says the rest.
+/// The direction after a surface: Snell's law scales its part along the surface, and its length stays 1.
 template <class S>
 [[nodiscard]] Point<S> turned(const Surface<S>& s, const Point<S>& w, const Point<S>& n) {
     const Point<S> along = w.across(n);

@@ -141,7 +141,7 @@ TEST_CASE("oracle: knows the closed forms") {
     CHECK(std::abs(back.tangents.d_direction[1].y + 1) < 1e-14);
 }
 
-// A bar is worth what it catches.
+// The bar must catch wrong formulas.
 TEST_CASE("oracle: a tangent that sticks out of the surface by a millionth is far above the bar") {
     if (!has_quadruple)
         return;
@@ -164,7 +164,7 @@ TEST_CASE("oracle: a tangent that sticks out of the surface by a millionth is fa
 }
 
 // Towards the critical angle the true derivative diverges like one over the refracted cosine, and the library follows
-// it to the last number that is refracted at all. From there on it says that nothing passes.
+// it to the last number that is refracted at all. From there on it reports total reflection.
 TEST_CASE_TEMPLATE("critical angle: the derivative diverges as the true one and never turns into nonsense", T, float,
                    double) {
     using V = glm::vec<3, T>;
@@ -239,7 +239,7 @@ TEST_CASE_TEMPLATE("footprints: those that diverge are bounded and counted and n
                 CHECK(verdict == Verdict::bounded);
             if (exact < double(diagonal) - slack)
                 CHECK(verdict == Verdict::kept);
-            // What was along the major axis is gone to the rounding of what it was.
+            // Along the major axis nothing is left but rounding.
             CHECK(double(radii(ellipse).major) <= double(diagonal) + 16 * epsilon * (double(diagonal) + exact + slack));
             (verdict == Verdict::bounded ? bounded : kept) += 1;
         }

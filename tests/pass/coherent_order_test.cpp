@@ -5,6 +5,7 @@
 #include "nephroid/emission/light/point.hpp"
 #include "nephroid/emission/light/quad.hpp"
 #include "nephroid/emission/light_set.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/halton.hpp"
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"

@@ -2,6 +2,7 @@
 #include "nephroid/pass/traced_batch.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/halton.hpp"
 #include "nephroid/vector/glm.hpp"
 

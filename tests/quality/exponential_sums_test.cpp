@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/quality/exponential_sums.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/random.hpp"
 
 #include <doctest/doctest.h>
@@ -10,6 +11,7 @@
 #include <vector>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 
 namespace {
 

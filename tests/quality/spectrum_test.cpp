@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/quality/spectrum.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/random.hpp"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/relaxation/detect_features.hpp"
 
 #include "relaxation/cloud.hpp"
@@ -6,6 +7,7 @@
 #include <doctest/doctest.h>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 namespace {
@@ -70,7 +72,7 @@ TEST_CASE("features: the border of what is lit is one") {
 
 TEST_CASE("features: the paper's criterion finds edges too and holds more than it should") {
     const auto photons = stepped_floor(10000, 63);
-    const RelaxationOptions options{.criterion = FeatureCriterion::spread};
+    const RelaxationOptions options{.criterion = FeatureCriterion::gap_variation};
     const auto at_edge = [](const auto& p) { return p.x > 0.495 && p.x < 0.5 && std::abs(p.y - 0.5) < 0.4; };
     const auto inside = [](const auto& p) { return p.x > 0.1 && p.x < 0.4 && std::abs(p.y - 0.5) < 0.4; };
     CHECK(held(photons, at_edge, {0, 1, 0}, options).weight > 0.9);

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 namespace {
@@ -105,8 +106,8 @@ TEST_CASE("neighbourhood: its own surface is found behind 128 times as many of a
             });
         return count;
     };
-    CHECK(found_behind(int(neighbour_crowd) * 6 - 6) == 6); // itself, the others and six are one more than asked for
-    CHECK(found_behind(int(neighbour_crowd) * 6 + 1) == 0);
+    CHECK(found_behind(int(most_candidates) * 6 - 6) == 6); // itself, the others and six are one more than asked for
+    CHECK(found_behind(int(most_candidates) * 6 + 1) == 0);
 }
 
 TEST_CASE("neighbourhood: many photons in one place cost no more than as many apart") {

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/relaxation/relax.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
+#include "nephroid/relaxation/detect_features.hpp"
+
 #include "relaxation/cloud.hpp"
 #include "support/foreign_vectors.hpp"
 
@@ -11,6 +14,7 @@
 #include <string>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 namespace {
@@ -269,6 +273,10 @@ TEST_CASE("relaxation: any vectors and any way to reach a photon's parts will do
     CHECK(relax(photons, access, RelaxationOptions{.iterations = 2}, SerialExecutor{}).photons == 100);
     static_assert(MovesPhotons<decltype(access), std::vector<Odd>>);
     static_assert(!MovesPhotons<decltype(access), const std::vector<Odd>>);
+    const auto copying =
+        photon_access([](const Odd& p) { return p.data[0]; }, [](const Odd& p) { return p.data[1]; }, &Odd::watts);
+    static_assert(ReadsPhotons<decltype(copying), std::vector<Odd>>);
+    static_assert(!MovesPhotons<decltype(copying), std::vector<Odd>>);
     static_assert(ReadsPhotons<decltype(access), const std::vector<Odd>>);
     static_assert(!ReadsPhotons<PhotonAccess<double Odd::*, double Odd::*, double Odd::*>, std::vector<Odd>>);
 }
@@ -407,4 +415,44 @@ TEST_CASE("relaxation: photons that cannot be are refused by their number") {
     photons[7].normal = {0, 0, 2};
     CHECK_THROWS_WITH(run(photons, {}),
                       "nephroid::relax: photon 7 has the normal (0, 0, 2); normals must be of unit length");
+}
+
+TEST_CASE("relaxation: a flux that is no number is refused by its photon's number") {
+    for (const double bad : {not_a_number, infinity}) {
+        auto photons = random_floor(100, 101);
+        photons[42].flux = bad;
+        const auto start = photons;
+        const std::string value = std::isnan(bad) ? "nan" : "inf";
+        const std::string expected = ": photon 42 has a flux of " + value + "; fluxes must be finite";
+        CHECK_THROWS_WITH(run(photons, {}), ("nephroid::relax" + expected).c_str());
+        CHECK_THROWS_WITH(run(photons, {.flux_diffusion = FluxDiffusion::conserving}),
+                          ("nephroid::relax" + expected).c_str());
+        CHECK_THROWS_WITH((void)detect_features(photons, access_to<Stored>(), {}),
+                          ("nephroid::detect_features" + expected).c_str());
+        CHECK(same_positions(photons, start));
+    }
+}
+
+// Squares of 1e19 leave float's range of 3.4e38: photons would find no neighbours and stay where they are.
+TEST_CASE("relaxation: photons too far apart for squared distances are refused by their number") {
+    auto photons = random_floor<glm::vec3>(100, 102);
+    for (auto& photon : photons)
+        photon.position *= 1e15f;
+    auto start = photons;
+    run(photons, {.iterations = 2, .constrain = false});
+    CHECK_FALSE(same_positions(photons, start));
+    photons = start;
+    photons[9].position = {2e19f, 0, 0};
+    start = photons;
+    CHECK_THROWS_WITH(
+        run(photons, {}),
+        doctest::Contains("nephroid::relax: photon 9 lies at (2e+19, 0, 0), so far from the others that"));
+    CHECK(same_positions(photons, start));
+}
+
+TEST_CASE("relaxation: without an executor everything runs on the calling thread") {
+    auto photons = random_floor(200, 103), same = photons;
+    run(photons, {.iterations = 3});
+    relax(same, access_to<Stored>(), {.iterations = 3});
+    CHECK(same_positions(photons, same));
 }

@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::Draws;
 using tests::for_each_vector;
 using tests::narrow;
@@ -24,10 +25,10 @@ TEST_CASE("over-relaxation: falls from its upper bound to its lower one as a Gau
 }
 
 TEST_CASE("step share: comes down from one to the last step evenly") {
-    CHECK(step_share(0, 5, 0.2) == 1);
-    CHECK(step_share(2, 5, 0.2) == doctest::Approx(0.6).epsilon(1e-14));
-    CHECK(step_share(4, 5, 0.2) == doctest::Approx(0.2).epsilon(1e-14));
-    CHECK(step_share(0, 1, 0.2) == 1);
+    CHECK(step_fraction(0, 5, 0.2) == 1);
+    CHECK(step_fraction(2, 5, 0.2) == doctest::Approx(0.6).epsilon(1e-14));
+    CHECK(step_fraction(4, 5, 0.2) == doctest::Approx(0.2).epsilon(1e-14));
+    CHECK(step_fraction(0, 1, 0.2) == 1);
 }
 
 // x − x_k = (0.6, 0.8, 0) · 0.5 and r τ = 2: (2/0.5 − 0.5/2) · (0.3, 0.4, 0) = 3.75 · (0.3, 0.4, 0).

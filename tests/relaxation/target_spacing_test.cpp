@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/relaxation/target_spacing.hpp"
 
 #include "relaxation/cloud.hpp"
@@ -6,6 +7,7 @@
 #include <doctest/doctest.h>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 namespace {

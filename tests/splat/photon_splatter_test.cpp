@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/splat/photon_splatter.hpp"
 
 #include "support/brute_force.hpp"

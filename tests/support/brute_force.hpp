@@ -65,15 +65,14 @@ struct Covariance {
     }
 };
 
-/// What a vertex gets, and by how much rounding may change it.
+/// The sum at a vertex, and how much rounding may change it.
 struct Received {
     double value = 0;
     double tolerance = 0;
 };
 
-/// π K(|M (x − x_p)|) Φ / A at every vertex [Frisvad et al. 2014, eq. 10 to 12]: nothing further than
-/// `normal_distance` minor radii, and than the spacing, from the tangent plane, and nothing at a vertex that faces the
-/// other way.
+/// π K(|M (x − x_p)|) Φ / A at every vertex [Frisvad et al. 2014, eq. 10 to 12]; nothing at a vertex that lies
+/// farther from the tangent plane than both `normal_distance` minor radii and the spacing, or that faces the other way.
 ///
 /// @param kernel     of a squared radius, in double, with slopes up to `steepest` of its peak
 /// @param filter     the radius of the disk that the pixel filter adds, world units; 0 for none

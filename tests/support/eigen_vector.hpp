@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file  Eigen's vectors, whose operators build expressions that refer to their operands, where Eigen is installed.
 ///
-/// A renderer that uses Eigen writes these traits and nothing else: inside the library its operators lose to the
-/// library's own, which return vectors, so that no expression outlives what it refers to.
+/// A renderer that uses Eigen writes these traits and nothing else: inside the library the library's own operators are
+/// used, which return vectors, so that no expression outlives its operands.
 #pragma once
 
 #include "nephroid/vector/traits.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The policies of plain splatting: each photon where it lands, all with the same smoothing.
+/// @file  The policies of plain splatting: photons stay where they land, and all have the same smoothing.
 #pragma once
 
 #include "nephroid/splat/splat.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Vector types that are not the library's default, one for each habit found in renderers, and their traits.
+/// @file  Vector types as renderers have them, one for each convention, and their traits.
 #pragma once
 
 #include "support/wide.hpp"
@@ -22,13 +22,13 @@ struct Plain {
     T x, y, z;
 };
 
-/// How often a type's own operators were called: + and − of two, unary −, scalar times vector, and element-wise
-/// times.
+/// How often a type's own operators were called: binary + and −, unary −, scalar times vector, and the element-wise
+/// product.
 struct Calls {
     int plus = 0, minus = 0, negate = 0, scale = 0, elementwise = 0;
 };
 
-/// As shading languages have them: converts from one number, `*` is element-wise, products are static members.
+/// As in shading languages: converts from one number, `*` is element-wise, products are static members.
 template <class T>
 class Shading {
 public:
@@ -63,7 +63,7 @@ private:
     T c_[3];
 };
 
-/// As SIMD libraries have them: four lanes, aligned, with operators of its own and functions found beside it.
+/// As in SIMD libraries: four lanes, aligned, with its own operators and functions in its namespace.
 template <class T>
 struct alignas(4 * sizeof(T)) Aligned {
     inline static Calls calls;
@@ -86,14 +86,14 @@ struct alignas(4 * sizeof(T)) Aligned {
         ++calls.scale;
         return {{s * a.lane[0], s * a.lane[1], s * a.lane[2], 0}};
     }
-    // Not what the library means by these names: it must not be talked into calling them.
+    // The same names as the library's with other meanings: the library must not call these.
     friend void dot(const Aligned&, const Aligned&) = delete;
     friend void cross(const Aligned&, const Aligned&) = delete;
     friend void length(const Aligned&) = delete;
     friend void normalize(const Aligned&) = delete;
 };
 
-/// Its operators are constrained templates for all of a family: as good a match as the library's, so the traits say so.
+/// Its operators are constrained templates for a family of types, as good a match as the library's: the traits choose.
 template <class T>
 struct Family {
     inline static Calls calls;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A glass ball over a floor in any vector type and any scalar: a whole caustic, small enough for a test.
+/// @file  A glass ball above a floor in any vector type and any scalar: a whole caustic, small enough for a test.
 #pragma once
 
 #include "nephroid/caustics.hpp"
@@ -11,7 +11,7 @@
 
 namespace nephroid::tests {
 
-/// The ball of radius 1, its centre `height` above the floor z = 0. Written with the traits' help alone.
+/// The ball of radius 1, its centre `height` above the floor z = 0. Uses nothing of a vector but its traits.
 template <Vector3 V, Flux F>
 struct GlassBall {
     using T = scalar_t<V>;
@@ -58,7 +58,7 @@ struct FloorVertex {
 template <class V>
 using Floor = std::vector<FloorVertex<V>>;
 
-/// side × side vertices over the caustic that a ball of glass above the origin makes.
+/// side × side vertices over the caustic of a glass ball above the origin.
 template <class V>
 [[nodiscard]] Floor<V> floor_of(int side, double reach = 0.8) {
     using T = scalar_t<V>;
@@ -76,8 +76,7 @@ template <class V>
     return EyePathMap<V>(vertices, &FloorVertex<V>::position, &FloorVertex<V>::normal);
 }
 
-/// The irradiance at side x side places on the floor around the caustic, under light that comes down with irradiance
-/// `sun` at a slant.
+/// The irradiance at side × side vertices on the floor around the caustic, in slanting light of irradiance `sun`.
 template <class Policies = SplatPolicies<>, Vector3 V, Flux F>
 [[nodiscard]] std::vector<F> caustic_of(const GlassBall<V, F>& scene, const F& sun, int side = 16,
                                         std::uint64_t photons = 600) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Reads the files of `gltf_writer.hpp` and checks what the reader complains of.
+/// @file  Reads the files of `gltf_writer.hpp` and checks the reader's error messages.
 #pragma once
 
 #include "common/gltf.hpp"
@@ -25,7 +25,7 @@ inline SceneDescription parse(const std::string& bytes, const std::filesystem::p
 
 inline SceneDescription parse(const GltfFile& file) { return parse(file.glb()); }
 
-/// What the reader complains of; empty if it reads the file. Anything but a std::runtime_error comes through.
+/// The reader's error message; empty if it reads the file. Any exception but a std::runtime_error passes through.
 inline std::string problem_of(const std::string& bytes) {
     try {
         static_cast<void>(parse(bytes));
@@ -39,7 +39,7 @@ inline std::string problem_of(const GltfFile& file) { return problem_of(file.glb
 
 inline bool contains(std::string_view text, std::string_view part) { return text.find(part) != std::string_view::npos; }
 
-/// One line that starts with the file's name and has the part in it.
+/// Whether the message is one line that begins with the file's name and contains the part.
 inline void check_problem(const std::string& problem, std::string_view part) {
     CAPTURE(problem);
     CAPTURE(part);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Whether the address or the thread sanitizer is in: long renderings are then left out.
+/// @file  Whether the address or the thread sanitizer is on: long renderings are then skipped.
 #pragma once
 
 namespace nephroid::tests {

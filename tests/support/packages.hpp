@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What most tests include of packages and the standard library, for the builds to compile once.
+/// @file  The headers of packages and the standard library that most tests include, for builds to precompile.
 #pragma once
 
 #include <algorithm>

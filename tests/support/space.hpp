@@ -12,7 +12,7 @@
 
 namespace nephroid::tests {
 
-/// A vector or a point. Its products are members, so that they are not confused with the library's.
+/// A vector or a point. Its products are members, so that none of the library's is called by mistake.
 struct Space {
     Wide x, y, z;
 
@@ -26,7 +26,7 @@ struct Space {
     }
     [[nodiscard]] Wide length() const { return sqrt(dot(*this)); }
     [[nodiscard]] Space unit() const { return (Wide(1) / length()) * *this; }
-    /// Without its part along the unit vector n.
+    /// The vector without its part along the unit vector n.
     [[nodiscard]] Space across(const Space& n) const { return *this - dot(n) * n; }
 };
 
@@ -67,7 +67,7 @@ template <Vector3 V>
     return (sine_bent / sine) * along - cosine_bent * normal;
 }
 
-/// Where a ray from x along w meets the plane through p across n.
+/// Where a ray from x along w meets the plane through p with normal n.
 [[nodiscard]] inline Space on_plane(const Space& x, const Space& w, const Space& p, const Space& n) {
     return x + ((p - x).dot(n) / w.dot(n)) * w;
 }
@@ -79,7 +79,7 @@ template <Vector3 V>
     return x + (leaving ? middle + half : middle - half) * w;
 }
 
-/// The point's coordinates b1, b2 in a triangle, by Cramer's rule; what lies off the triangle's plane is ignored.
+/// The point's barycentric coordinates b1, b2 in a triangle, by Cramer's rule, projected onto the triangle's plane.
 [[nodiscard]] inline std::array<Wide, 2> barycentric(const std::array<Space, 3>& corner, const Space& point) {
     const Space e1 = corner[1] - corner[0], e2 = corner[2] - corner[0], face = e1.cross(e2), p = point - corner[0];
     const Wide volume = e1.dot(e2.cross(face));
@@ -105,7 +105,7 @@ template <class F>
     return std::pow(h / radius, 4) / radius + 64 * power_of_two(1 - Wide::digits) * 6 / h;
 }
 
-/// Reproducible anywhere: integer arithmetic, and numbers that float holds exactly.
+/// Random numbers that are the same on every machine: by integer arithmetic, and exact in float.
 class Draws {
 public:
     explicit Draws(std::uint32_t seed) : state_(seed) {}

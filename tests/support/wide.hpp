@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  A scalar wider than double, for references: quadruple precision where the compiler has it. It is a class, so
-///        it is also the tests' example of a scalar that is not built in: the library runs on it (`is_scalar<Wide>`).
+/// @file  A scalar wider than double, for references: quadruple precision where the compiler has it. It is a class, and
+///        so also the tests' example of a scalar that is not built in (`is_scalar<Wide>`).
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
@@ -50,11 +50,11 @@ public:
     friend constexpr Wide abs(const Wide& a) { return a.number_ < 0 ? -a : a; }
     friend bool isfinite(const Wide& a) { return std::isfinite(static_cast<double>(a.number_)); }
 
-    /// Newton's iteration from the double root, whose 53 digits double at each step.
+    /// Newton's iteration from the root in double, which doubles the 53 correct digits at each step.
     friend Wide sqrt(const Wide& a) {
         if (!(a > Wide(0)))
             return a == Wide(0) ? a : Wide(std::numeric_limits<double>::quiet_NaN());
-        if (a < Wide(0x1p-900)) // the square of a tiny double: out of double's range
+        if (a < Wide(0x1p-900)) // the square of a tiny double, which double cannot hold
             return sqrt(a * Wide(0x1p900)) * Wide(0x1p-450);
         Wide root = std::sqrt(static_cast<double>(a));
         for (int i = 0; i < 3; ++i)

@@ -3,6 +3,7 @@
 
 #include "support/space.hpp"
 
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

@@ -7,7 +7,7 @@
 #include "common/errors.hpp"
 #include "common/stopwatch.hpp"
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
 
 #include <map>

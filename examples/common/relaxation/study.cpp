@@ -3,6 +3,7 @@
 
 #include "common/stopwatch.hpp"
 
+#include "nephroid/relaxation/detect_features.hpp"
 #include "nephroid/relaxation/relax.hpp"
 
 #include <utility>

@@ -7,7 +7,7 @@
 #include "common/relaxation/edge.hpp"
 #include "common/relaxation/options.hpp"
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <functional>

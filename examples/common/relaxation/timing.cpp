@@ -70,7 +70,7 @@ public:
 
     /// The least cost of finding all photons' neighbours, as an iteration does.
     [[nodiscard]] Cost cost_of_neighbours(std::size_t count) {
-        using Cloud = PhotonCloud<glm::vec3, Color>;
+        using Cloud = nephroid::detail::PhotonCloud<glm::vec3, Color>;
         const auto access = photon_access(&StoredPhoton::position, &StoredPhoton::normal, &StoredPhoton::flux);
         const Cloud cloud(photons_, access, options_->relaxation.cos_same_surface, "relaxation --timing");
         std::vector<float> radius(cloud.tree().slots()); // found the first time, and guessed right from then on
@@ -78,7 +78,7 @@ public:
         for (int tries = 0; tries < 5; ++tries) {
             Stopwatch stopwatch;
             const std::clock_t start = std::clock();
-            nephroid::detail::for_each_leaf<Neighbourhood<Cloud>>(
+            nephroid::detail::for_each_leaf<nephroid::detail::Neighbourhood<Cloud>>(
                 cloud.tree(), *threads_, [&](auto& neighbourhood, std::uint32_t leaf) {
                     neighbourhood.for_each(cloud, leaf, count, radius, [&](std::size_t slot, auto found) {
                         radius[slot] = found.empty() ? 0 : std::sqrt(found.back().distance2);

@@ -4,7 +4,7 @@
 
 #include "common/relaxation/options.hpp"
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 
 #include <iosfwd>
 

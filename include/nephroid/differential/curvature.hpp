@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// @file  How a surface's normal changes along it: the four ways in which renderers know.
+/// @file  How a surface's normal changes along it, in the four forms that renderers know.
 ///
-/// Each is a function from the displacement of a hit point in the tangent plane, dx, to the change of the *shading*
-/// normal, dn. A hit carries one of them as its member `curvature`; a scene with several kinds of surface carries a
-/// std::variant of them. When the walk flips a normal to face the ray it flips dn with it.
+/// Each form is a function from the displacement of a hit point in the tangent plane, dx, to the change of the
+/// *shading* normal, dn. A hit has one as its member `curvature`; a scene with several kinds of surface uses
+/// `AnyCurvature`. Where the walk flips a normal to face the ray, it flips dn as well.
 #pragma once
 
 #include "nephroid/vector/algebra.hpp"
@@ -18,7 +18,7 @@
 
 namespace nephroid {
 
-/// Says how the shading normal changes: `curvature(dx)` is dn.
+/// Gives the change of the shading normal: `curvature(dx)` is dn.
 ///
 /// ```cpp
 /// struct Bumps { // a renderer's own: a plane z = 0 with the normal of z = a sin(k x)
@@ -33,7 +33,7 @@ concept Curvature = Vector3<V> && requires(const C curvature, const V d_position
     { curvature(d_position) } -> std::convertible_to<V>;
 };
 
-/// The shading normal is constant: a plane, a flat-shaded triangle. Say so explicitly: the library never assumes it.
+/// The shading normal is constant: a plane, a flat-shaded triangle. The library never assumes it: a hit has to say so.
 struct Flat {
     template <Vector3 V>
     [[nodiscard]] constexpr V operator()(const V&) const {
@@ -78,8 +78,8 @@ struct ParametricCurvature {
     V dpdu, dpdv;
     V dndu, dndv;
 
-    /// Where dpdu and dpdv are parallel (the pole of a sphere, degenerate uv) only the longer one is used; where
-    /// both vanish nothing is known about the normal and dn is zero.
+    /// Where dpdu and dpdv are parallel (the pole of a sphere, degenerate uv), only the longer one is used; where both
+    /// vanish, the change of the normal is unknown and dn is zero.
     [[nodiscard]] V operator()(const V& d_position) const {
         using T = scalar_t<V>;
         return isfinite(T(length2(dpdu) * length2(dpdv))) ? solve(d_position) : in_range().solve(d_position);
@@ -89,7 +89,7 @@ private:
     [[nodiscard]] V solve(const V& d_position) const {
         using T = scalar_t<V>;
         const T uu = length2(dpdu), vv = length2(dpdv);
-        // By cross products, which keep their digits in sheared coordinates where the Gram matrix has lost them.
+        // By cross products, which keep their digits in sheared coordinates, where the Gram matrix loses them.
         const V across = cross(dpdu, dpdv);
         const T gram = length2(across); // uu vv sin²
         if (gram > square(T(16) * std::numeric_limits<T>::epsilon()) * uu * vv) {
@@ -102,7 +102,8 @@ private:
         return uu >= vv ? V((dot(d_position, dpdu) / uu) * dndu) : V((dot(d_position, dpdv) / vv) * dndv);
     }
 
-    /// The same surface in parameters of about the unit of length, for parameters so small that squares overflow.
+    /// The same surface with its parameters rescaled to about the unit of length: for derivatives whose squares
+    /// overflow.
     [[nodiscard]] ParametricCurvature in_range() const {
         const auto scale = [](const V& d) { return scalar_t<V>(1) / (std::max)(scalar_t<V>(1), largest_component(d)); };
         const scalar_t<V> u = scale(dpdu), v = scale(dpdv);
@@ -123,14 +124,14 @@ struct InterpolatedCurvature {
 };
 
 namespace detail {
-/// Of edges e1, e2 of a triangle and normals n0, n1, n2. Nothing comes back where squares leave the range.
+/// The curvature of a triangle with edges e1, e2 and normals n0, n1, n2; nothing where squares leave the range.
 template <Vector3 V>
 [[nodiscard]] std::optional<InterpolatedCurvature<V>>
 interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const V& n2, scalar_t<V> b1, scalar_t<V> b2) {
     using T = scalar_t<V>;
     using W = wider_t<T>;
-    // Below the smallest normal number of T a square has lost its digits, or the gradients do not fit into T; from
-    // that one's inverse on it is the inverse that has lost them, or the gradients.
+    // A square below the smallest normal number of T has lost its digits, or the gradients overflow T; above the
+    // inverse of that number its inverse has lost them, or the gradients have.
     const T least = (std::numeric_limits<T>::min)(), most = T(1) / least;
     const auto wide_e1 = widened(e1), wide_e2 = widened(e2), face = wide_cross<V>(wide_e1, wide_e2);
     const V d1 = n1 - n0, d2 = n2 - n0;
@@ -149,7 +150,7 @@ interpolated_in_range(const V& e1, const V& e2, const V& n0, const V& n1, const 
                                     projected(d2)};
 }
 
-/// The factor that brings the longest of some vectors to about the unit of length; 0 where there is none.
+/// The factor that scales the longest of some vectors to about unit length; 0 where all vanish.
 template <Vector3 V>
 [[nodiscard]] scalar_t<V> to_unit(std::initializer_list<V> vectors) {
     using T = scalar_t<V>;
@@ -160,10 +161,12 @@ template <Vector3 V>
 }
 } // namespace detail
 
+/// The curvature of a triangle with interpolated normals at a hit.
+///
 /// @param p0,p1,p2  the triangle's vertices
 /// @param n0,n1,n2  their normals, unit or not
 /// @param b1,b2     barycentric coordinates of the hit: position = p0 + b1 (p1 − p0) + b2 (p2 − p0)
-/// A triangle without area has no gradient and a vanishing interpolated normal no direction: dn is zero there.
+/// @return  zero where the triangle has no area, and so no gradients, or where the interpolated normal vanishes
 /// Source: Igehy 1999, "Normal interpolation".
 template <Vector3 V>
 [[nodiscard]] InterpolatedCurvature<V> interpolated_normals(const V& p0, const V& p1, const V& p2, const V& n0,
@@ -172,8 +175,8 @@ template <Vector3 V>
     const V e1 = p1 - p0, e2 = p2 - p0;
     if (const auto curvature = detail::interpolated_in_range(e1, e2, n0, n1, n2, b1, b2))
         return *curvature;
-    // The same triangle and its normals in units of their own: how long the normals are does not matter, and the
-    // gradients are in the inverse of the edges' unit.
+    // The same with edges and normals scaled to about unit length: the length of the normals does not matter, and the
+    // gradients scale like the inverse of the edges.
     const T s = detail::to_unit({e1, e2}), n = detail::to_unit({n0, n1, n2});
     auto curvature = detail::interpolated_in_range<V>(s * e1, s * e2, n * n0, n * n1, n * n2, b1, b2);
     if (!curvature)
@@ -183,7 +186,7 @@ template <Vector3 V>
     return *curvature;
 }
 
-/// A hit on any of several kinds of surface: the curvature as std::variant.
+/// The curvature of a hit on any of several kinds of surface: a std::variant.
 template <class... Kinds>
 struct AnyCurvature : std::variant<Kinds...> {
     using std::variant<Kinds...>::variant;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Curvature for renderers that know none: the change of the normal, by tracing rays beside the hit.
+/// @file  Curvature for renderers that know none, from rays traced beside the hit.
 #pragma once
 
 #include "nephroid/differential/curvature.hpp"
@@ -11,13 +11,13 @@
 namespace nephroid {
 
 /// The change of a shading normal, dn = curvature(dx), by central differences: two rays beside the hit, each from a
-/// little above the surface straight down to it. They are traced when the walk asks, so a hit that only receives light
-/// costs none, and a mirror or glass surface two rays for each tangent. They count in no `Statistics::rays`.
+/// little above the surface straight down to it. They are traced only when the walk asks for dn: none where a surface
+/// only receives light, two for each tangent at a mirror or glass surface. `Statistics::rays` does not count them.
 ///
-/// Where a ray finds nothing, or another `surface`, or a normal that turns faster than the scale lets expect, the rays
-/// move closer together; at a rim and at a crease the difference to the hit itself is taken, on the side that goes on.
-/// Where nothing is found at all dn is NaN, which ends the photon as Fate::invalid: never a silent zero.
-/// Made by `finite_difference_curvature`; as constructed it knows nothing, and says so by the same NaN.
+/// Where a ray finds nothing, or another `surface`, or a normal that turns too fast for the scale, the rays move closer
+/// together. At a rim and at a crease the difference to the hit itself is taken, on the side where the surface goes on.
+/// Where no ray finds the surface dn is NaN, which ends the photon as Fate::invalid: never a silent zero.
+/// `finite_difference_curvature` makes one; a default-constructed one gives NaN.
 ///
 /// @tparam Tracer  has `intersect(origin, direction, t_min, t_max)` as transport/scene.hpp asks; may be incomplete here
 template <Vector3 V, class Tracer>
@@ -50,13 +50,13 @@ private:
         V normal;
     };
 
-    /// The change of the normal over a distance.
+    /// A change of the normal, and the distance over which it changed.
     struct Difference {
         V turn;
         T apart;
 
         [[nodiscard]] T size() const { return length(turn) / apart; }
-        /// Whether the normal turns about as fast as on a surface of this scale, or less.
+        /// Whether the normal turns no faster than on a surface of this scale, or hardly.
         [[nodiscard]] bool is_gentle(T scale) const { return scale * length(turn) <= T(4) * apart; }
     };
 
@@ -73,7 +73,7 @@ private:
                 const Difference across{ahead->normal - behind->normal, to_ahead->apart + to_behind->apart};
                 if (to_ahead->is_gentle(scale) && to_behind->is_gentle(scale))
                     return T(1) / across.apart * across.turn;
-                // From so far apart the radius is a guess.
+                // Points so far apart give the radius only roughly.
                 scale = (std::max)(T(1) / (std::max)(to_ahead->size(), to_behind->size()), scale / T(16));
             } else if (found && found->is_gentle(scale)) {
                 break;
@@ -97,7 +97,8 @@ private:
         return !b || (a && a->size() <= b->size()) ? a : b;
     }
 
-    /// Down to the surface at `offset` along the tangent plane, from as far above it as the surface may have sunk.
+    /// Traces a ray down to the surface at `offset` along the tangent plane, from as high above it as the surface may
+    /// sink below it.
     [[nodiscard]] std::optional<Probe> probe(const V& along, T offset) const {
         const T height = abs(offset);
         const V origin = position_ + (offset * along + height * geometric_normal_);
@@ -113,8 +114,8 @@ private:
         return Probe{origin, dot(normal, shading_normal_) < T(0) ? V(-normal) : normal};
     }
 
-    /// With R the scale and δ the error of a normal, the truncation (h/R)²/R and the rounding δ/h balance at
-    /// h = R δ^(1/3). A normal that was computed from a position p far from the origin is off by ε (1 + |p|/R).
+    /// The distance h = R δ^(1/3) of the rays from the hit, which balances the truncation (h/R)²/R and the rounding
+    /// δ/h, with R the scale and δ = ε (1 + |p|/R) the error of a normal computed from a position p.
     [[nodiscard]] T step(T scale) const {
         const double r(scale), away(largest_component(position_)), epsilon(std::numeric_limits<T>::epsilon());
         return T(std::cbrt(epsilon * r * r * (r + away)));
@@ -125,7 +126,7 @@ private:
         return make_vector<V>(nan, nan, nan);
     }
 
-    /// Below it neighbouring points round to the same.
+    /// Below this scale neighbouring points round to the same position.
     [[nodiscard]] T least_scale() const {
         return T(64) * std::numeric_limits<T>::epsilon() * largest_component(position_);
     }
@@ -138,14 +139,14 @@ private:
     T scale_ = T(0);
 };
 
-/// If this is what the compiler names: the hit has no `position`, or no `geometric_normal`.
+/// A hit with a `position` and a `geometric_normal`.
 template <class H>
 concept LiesOnSurface = requires(const H hit) {
     requires Vector3<std::remove_cvref_t<decltype(hit.position)>>;
     { hit.geometric_normal } -> std::convertible_to<std::remove_cvref_t<decltype(hit.position)>>;
 };
 
-/// The curvature of a hit whose renderer knows distance and normal alone.
+/// Makes the curvature of a hit for a renderer that knows only distances and normals.
 ///
 /// ```cpp
 /// struct Adapter {
@@ -159,18 +160,17 @@ concept LiesOnSurface = requires(const H hit) {
 /// };
 /// ```
 ///
-/// @param tracer  what has found the hit: `tracer.intersect(origin, direction, t_min, t_max)`; must outlive the result.
-///                A surface is to be found from both sides; whether its normal is turned to the ray does not matter
+/// @param tracer  the tracer that found the hit: `tracer.intersect(origin, direction, t_min, t_max)`; must outlive the
+///                result. It must find surfaces from both sides; their normals may face the ray or not
 /// @param hit     with `position`, `geometric_normal`, and where it has them `shading_normal` and a number `surface`,
 ///                which the neighbouring points must share
-/// @param scale   of the surface about the hit, world units, positive and finite (else dn is NaN): its least radius of
-///                curvature, or where that is unknown the object's size. Too large costs a few rays more, as long as
-///                the factor is well below ε^(−1/3), 200 in float; too small costs accuracy, the factor to the power
-///                2/3. The rays start about ε^(1/3) scale off the surface: a tracer that skips a distance of its own
+/// @param scale   the surface's least radius of curvature near the hit, or the object's size where that is unknown;
+///                world units, positive and finite (else dn is NaN). Too large a scale costs a few more rays, as long
+///                as the factor is well below ε^(−1/3), 200 in float; too small a scale costs accuracy, the factor
+///                to the power 2/3. The rays start about ε^(1/3) scale off the surface: a tracer that skips a distance
 ///                at the start of every ray must skip less
-/// @return  as `hit.curvature`. The relative error is about (ε (1 + |p|/scale))^(2/3), with ε the scalar's epsilon
-///          and
-///          |p| the position's largest coordinate: 3e-5 in float, 5e-11 in double
+/// @return  for the hit's member `curvature`. The relative error is about (ε (1 + |p|/scale))^(2/3), with ε the
+///          scalar's epsilon and |p| the position's largest coordinate: 3e-5 in float, 5e-11 in double
 template <class Tracer, LiesOnSurface H>
 [[nodiscard]] auto finite_difference_curvature(const Tracer& tracer, const H& hit,
                                                scalar_t<std::remove_cvref_t<decltype(hit.position)>> scale) {

@@ -7,11 +7,12 @@
 
 namespace nephroid {
 
-/// The differential of a photon that a diffuse surface sends on in a direction drawn at random.
+/// The differential of a photon that a diffuse surface re-emits in a random direction.
 ///
-/// The new direction does not depend on the emission parameters, so the old tangents end here; the new ones start
-/// as if the photon had flown a virtual distance v from a point, where v is such that the footprint does not
-/// shrink: |∂x_u × ∂x_v| after the bounce is what it was before. The virtual flight is already in `d_position`.
+/// The new direction does not depend on the emission parameters, so the old tangents end here. The new ones start as if
+/// the photon had flown a virtual distance v from a point, chosen such that the footprint keeps its area |∂x_u ×
+/// ∂x_v|.
+/// `d_position` already includes the virtual flight.
 ///
 /// @param arrived             the differential at the surface; its first two tangents span the footprint
 /// @param direction           of the re-emitted ray, unit

@@ -6,7 +6,7 @@
 
 namespace nephroid {
 
-/// A reflection at one surface point; made once per event, applied to each tangent.
+/// A reflection at one surface point: made once for each event, applied to each tangent.
 template <Vector3 V>
 class Reflection {
 public:
@@ -28,7 +28,7 @@ public:
         using T = scalar_t<V>;
         const T d_twice_cosine = T(2) * (dot(d_direction, normal_) + dot(incoming_, d_normal));
         const V d_reflected = d_direction - (d_twice_cosine * normal_ + twice_cosine_ * d_normal);
-        // A unit direction's derivative is orthogonal to it; rounding must not build up along the path.
+        // A unit direction's derivative is orthogonal to it: this keeps rounding from growing along the path.
         return d_reflected - dot(direction_, d_reflected) * direction_;
     }
 

@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-/// A refraction at one surface point; made once per event by `refraction`, applied to each tangent.
+/// A refraction at one surface point: `refraction` makes it once for each event, to be applied to each tangent.
 /// With c = −ω·n and c' the cosine of the refracted angle, ω' = η ω + μ n where μ = η c − c'.
 template <Vector3 V>
 class Refraction {
@@ -35,8 +35,8 @@ public:
     ///
     /// @param d_direction  ∂ω/∂p of the incoming ray
     /// @param d_normal     ∂n/∂p of the same normal: `curvature(tangent.d_position)`
-    /// Near the critical angle the derivative grows like 1/c' because the true one does; the footprint is bounded
-    /// and counted where it is splatted (footprint/policies.hpp).
+    /// Near the critical angle the derivative grows like 1/c', as the true one does; splatting bounds the footprint and
+    /// counts it (footprint/policies.hpp).
     /// Source: Igehy 1999, refraction.
     [[nodiscard]] V differentiate(const V& d_direction, const V& d_normal) const {
         const T d_mu = (eta_ - eta_ * eta_ * cos_incident_ / cos_refracted_) * d_cosine(d_direction, d_normal);
@@ -58,7 +58,7 @@ private:
         return -(dot(d_direction, normal_) + dot(incoming_, d_normal));
     }
 
-    // A unit direction's derivative is orthogonal to it; rounding must not build up along the path.
+    // A unit direction's derivative is orthogonal to it: this keeps rounding from growing along the path.
     [[nodiscard]] V tangential(const V& d_refracted) const {
         return d_refracted - dot(direction_, d_refracted) * direction_;
     }
@@ -77,19 +77,18 @@ private:
 /// @param direction  of the incoming ray, unit
 /// @param normal     the *shading* normal, unit, against the ray: direction · normal < 0
 /// @param eta        n₁/n₂: the index of the medium the ray is in over that of the one it enters, > 0
-/// @return  nothing at and beyond the critical angle (total internal reflection), and when the ray is not against
-///          the normal.
+/// @return  nothing at and beyond the critical angle (total internal reflection), and where the ray does not run
+///          against the normal
 template <Vector3 V>
 [[nodiscard]] std::optional<Refraction<V>> refraction(const V& direction, const std::type_identity_t<V>& normal,
                                                       scalar_t<V> eta) {
     using T = scalar_t<V>;
-    // Rounding can make the cosine of two unit vectors exceed one by a few units in the last place. (This order keeps
-    // NaN.)
+    // Rounding can make the cosine of two unit vectors exceed one. (This order of arguments keeps NaN.)
     const T cos_incident = (std::min)(-dot(direction, normal), T(1));
     if (!(cos_incident > T(0)))
         return std::nullopt;
-    // 1 − η² sin² in a form that cancels nothing for η <= 1, and for η > 1 only towards the critical angle:
-    // indices that (nearly) match keep their digits at grazing incidence.
+    // 1 − η² sin² in a form that does not cancel for η <= 1, and for η > 1 only near the critical angle: nearly
+    // equal indices keep their digits at grazing incidence.
     const T cos2_refracted = square(eta * cos_incident) - (eta - T(1)) * (eta + T(1));
     if (!(cos2_refracted > T(0)))
         return std::nullopt;

@@ -11,11 +11,11 @@
 
 namespace nephroid {
 
-/// The derivative of a ray (x, ω) by one parameter p of its emission. Every event along the path acts on each
-/// tangent alone, and linearly, so a photon differential is an array of them and a path carries as many as it needs.
+/// The derivative of a ray (x, ω) by one parameter p of its emission. Every event along the path acts on each tangent
+/// separately and linearly, so a photon differential is an array of tangents, as many as a path needs.
 ///
-/// A tangent is scaled by the footprint that its photon stands for (emission/spread.hpp), so `d_position` has the
-/// unit of length and `d_direction` is in radians.
+/// A tangent is scaled to the photon's footprint (emission/spread.hpp): `d_position` is in world units, `d_direction`
+/// in radians.
 template <Vector3 V>
 struct Tangent {
     V d_position;  ///< ∂x/∂p
@@ -32,22 +32,22 @@ template <Scalar T>
 }
 } // namespace detail
 
-/// What a tangent's components may reach: 2^52 in float, 2^244 in double. Longer than any scene, and so far below the
-/// largest number that a flight and a surface do not take it there, nor the fourth power that an ellipse's radii go by
-/// (in `wider_t`).
+/// The largest component that a tangent may have: 2^52 in float, 2^244 in double. It is larger than any scene, and
+/// small enough that neither a flight, nor a surface, nor the fourth powers behind an ellipse's radii (in `wider_t`)
+/// overflow.
 template <Scalar T>
 inline constexpr T longest_tangent = detail::power_of_two<T>(
     (std::min)(std::numeric_limits<T>::max_exponent / 2, std::numeric_limits<wider_t<T>>::max_exponent / 4) - 12);
 
-/// Scales a tangent down where it has outgrown that: between curved mirrors tangents grow exponentially, and what
-/// overflows ends as NaN. Such a footprint is still far too long, and the excess policy sees it
+/// Scales a tangent down to `longest_tangent` where it is longer. Between curved mirrors tangents grow exponentially,
+/// and would overflow to NaN. Such a footprint stays far too long, so the excess policy acts on it
 /// (footprint/policies.hpp).
 template <Vector3 V>
 void bring_into_range(Tangent<V>& tangent) {
     using T = scalar_t<V>;
     using t = vector_traits<V>;
     const auto sum = [](const V& v) -> T { return abs(T(t::x(v))) + abs(T(t::y(v))) + abs(T(t::z(v))); };
-    if (!(sum(tangent.d_position) + sum(tangent.d_direction) > longest_tangent<T>)) // one branch, nearly always taken
+    if (!(sum(tangent.d_position) + sum(tangent.d_direction) > longest_tangent<T>)) // nearly always
         return;
     const T reach = (std::max)(largest_component(tangent.d_position), largest_component(tangent.d_direction));
     if (!(reach > longest_tangent<T>))
@@ -56,8 +56,8 @@ void bring_into_range(Tangent<V>& tangent) {
     tangent = {scale * tangent.d_position, scale * tangent.d_direction};
 }
 
-/// A photon differential: N tangents. Two (u, v) are Frisvad's aligned differential, the common case; further ones
-/// (time, wavelength, a second pair for unaligned emission) come after these two.
+/// A photon differential: N tangents. The first two (u, v) are Frisvad's aligned differential, the common case; others
+/// (time, wavelength, a second pair for unaligned emission) follow them.
 template <Vector3 V, std::size_t N = 2>
 using PhotonDifferential = std::array<Tangent<V>, N>;
 

@@ -9,7 +9,8 @@
 
 namespace nephroid {
 
-/// A flight of known length that ends on a known plane; made once per ray by `transfer`, applied to each tangent.
+/// A flight of known length that ends on a known plane: `transfer` makes it once for each ray, to be applied to each
+/// tangent.
 template <Vector3 V>
 class Transfer {
 public:
@@ -39,8 +40,8 @@ private:
 /// @param distance   to the hit, world units, >= 0
 /// @param normal     the *geometric* normal there (the hit point moves on the real surface); either side, any
 ///                   non-zero length
-/// @return  nothing if the ray runs parallel to the plane (to 1e-12 and less, far below the rounding of a direction):
-///          its footprint there is unbounded.
+/// @return  nothing if the ray runs parallel to the plane, where its footprint is unbounded: to 1e-12 or less, far
+///          below the rounding of a direction
 /// Source: Igehy 1999, transfer; Frisvad et al. 2014, eq. 8 and 9, which are this formula for aligned tangents.
 template <Vector3 V>
 [[nodiscard]] std::optional<Transfer<V>> transfer(const V& direction, scalar_t<V> distance,
@@ -48,8 +49,7 @@ template <Vector3 V>
     using T = scalar_t<V>;
     using t = vector_traits<V>;
     const T cos_hit = dot(direction, normal);
-    // Below 2^-40 in float, 2^-338 in double, what is transferred may overflow. (Not isfinite: -ffast-math removes
-    // that.)
+    // Below 2^-40 in float, 2^-338 in double, transferred tangents may overflow.
     constexpr T least = T(1) / detail::power_of_two<T>(std::numeric_limits<T>::max_exponent / 3 - 2);
     if (!(abs(cos_hit) > least * (abs(T(t::x(normal))) + abs(T(t::y(normal))) + abs(T(t::z(normal))))))
         return std::nullopt;

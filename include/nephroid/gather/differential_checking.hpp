@@ -8,20 +8,17 @@
 
 namespace nephroid {
 
-/// When to stop adding photons. They are added nearest first, and the estimate E with a constant kernel is looked at
-/// from time to time. As long as light is even, all looks see the same but for chance: with n photons the standard
-/// deviation of ln E is 1/√n (for unequal fluxes n is (ΣΦ)²/ΣΦ²). So each look says that the logarithm lies
-/// within `significance`/√n of what it sees. Where these intervals no longer have a point in common, the disk has
-/// reached into other light, and the photons of the look before are taken.
+/// Options of differential checking, which stops adding photons, nearest first, where the disk reaches other light.
 ///
-/// The papers that describe differential checking leave the rule open ("if a large difference is detected"); this is
-/// Lepski's choice of a bandwidth: the largest whose estimate no smaller one contradicts. It keeps what all looks agree
-/// on, not the look from which the estimates seem to rise or fall: that one would be an extreme of the sequence, chosen
-/// for its error. Of looks at a and b > a photons ln E differs by chance with the variance 1/a − 1/b, less than the
-/// square of 1/√a + 1/√b, which is what parts them: a pair errs with less than the chance of `significance`
-/// standard deviations. All looks together, with the defaults and photons at random, cut even light short in 0.1% of
-/// places for 200 photons, 0.7% for 1000 and 2.4% for 4000, late where they do: rms errors grow by 0.1%, 1% and 7%.
-/// Stratified photons have less noise than that, and are cut less.
+/// From time to time the estimate E with a constant kernel is checked. In even light ln E of n random photons has the
+/// standard deviation 1/√n (for unequal fluxes n is (ΣΦ)²/ΣΦ²), so each check confines ln E to an interval of
+/// half width
+/// `significance`/√n. Where these intervals have no point in common any more, the disk has reached other light, and
+/// the photons of the previous check are taken. This is Lepski's choice of a bandwidth, the largest whose estimate no
+/// smaller one contradicts; the papers on differential checking leave the rule open.
+///
+/// With the defaults, even light of random photons is cut short in 0.1% of places for 200 photons, 0.7% for 1000 and
+/// 2.4% for 4000; of stratified photons more rarely.
 ///
 /// No test can tell a detail from an edge. Where the light changes within a pixel, estimates follow it, and a picture
 /// with one eye path in a pixel aliases: give the pixel's size as `resolution`.
@@ -29,8 +26,8 @@ namespace nephroid {
 /// Sources: Lepski 1990, "On a problem of adaptive estimation in Gaussian white noise"; intersecting intervals as in
 /// Goldenshluger and Nemirovski 1997, "On spatially adaptive estimation of nonparametric regression".
 struct DifferentialChecking {
-    std::size_t least = 32;    ///< photons at the first look, >= 2
-    double growth = 1.25;      ///< photons at a look over those at the one before, > 1, <= 1e6
+    std::size_t least = 32;    ///< photons at the first check, >= 2
+    double growth = 1.25;      ///< photons at a check over those at the one before, > 1, <= 1e6
     double significance = 2.5; ///< half width of an interval, in standard deviations of a random count, > 0
     double resolution = 0;     ///< photons nearer than this are always taken, world units, >= 0
 };
@@ -51,13 +48,15 @@ inline void check(const DifferentialChecking& checking, const char* who) {
                          "; it must not be negative");
 }
 
-/// What all looks so far agree on: an interval of ln E.
+/// The interval of ln E that all checks so far agree on.
 class Agreement {
 public:
     explicit Agreement(double significance) : significance_(significance) {}
 
-    /// Takes a look. @param photons  that the estimate is worth, > 0. @return  whether it agrees with all before.
-    [[nodiscard]] bool holds_with(double estimate, double photons) {
+    /// Adds a check.
+    /// @param photons  that the estimate is worth, > 0
+    /// @return  whether it agrees with all before
+    [[nodiscard]] bool add(double estimate, double photons) {
         const double middle = std::log(estimate), half = significance_ / std::sqrt(photons);
         low_ = (std::max)(low_, middle - half);
         high_ = (std::min)(high_, middle + half);
@@ -69,7 +68,7 @@ private:
     double low_ = -std::numeric_limits<double>::infinity(), high_ = std::numeric_limits<double>::infinity();
 };
 
-/// How many of the photons, nearest first, are to be taken: the last of them gives the radius.
+/// How many of the photons, nearest first, an estimate takes: the last of them gives the radius.
 template <Vector3 V, Flux F>
 [[nodiscard]] std::size_t checked_count(const PhotonMap<V, F>& map, std::span<const Neighbour<scalar_t<V>>> sorted,
                                         const DifferentialChecking& checking) {
@@ -81,7 +80,7 @@ template <Vector3 V, Flux F>
         const double farthest2 = double(sorted[count - 1].distance2);
         if (count >= next || count == sorted.size()) {
             if (farthest2 > resolution2 && power > 0) {
-                if (!agreement.holds_with(power / farthest2, power * power / power2))
+                if (!agreement.add(power / farthest2, power * power / power2))
                     return agreed;
                 agreed = count;
             }

@@ -11,8 +11,8 @@
 
 namespace nephroid {
 
-/// Estimates irradiance as the sum of the stored photons' footprints over a point: what `PhotonSplatter` sums up the
-/// other way round, and the same sum, in another order.
+/// Estimates irradiance as the sum of the stored photons' footprints over a point: the same sum as `PhotonSplatter`'s,
+/// photon by photon for each vertex instead of vertex by vertex for each photon.
 /// Source: Schjøth, Frisvad, Erleben and Sporring 2007, "Photon Differentials".
 ///
 /// ```cpp
@@ -26,11 +26,10 @@ public:
     using T = scalar_t<V>;
 
     /// @param deposits  photons with their tangents, as `trace_photons` returns them
-    /// @param eyes      where the estimate will be asked for: bounds the footprints and gives the pixel filter its
-    ///                  width, as in splatting; not needed after the call
-    /// @param policies  `SplatPolicies<…>`: how a photon becomes a footprint. The footprints are those of the
-    ///                  deposits as they are; what `splat_caustics` makes of them by neighbouring photons is not done
-    ///                  here
+    /// @param eyes      the vertices to be estimated at: bound the footprints and give the pixel filter its width, as
+    ///                  in splatting; not needed after the call
+    /// @param policies  `SplatPolicies<…>`: how a photon becomes a footprint. First order: neighbouring photons do
+    ///                  not shape the footprints, as they may in `splat_caustics`
     /// @param executor  who runs the work; the result does not depend on it
     template <std::size_t N, class Policies, class E = SerialExecutor>
     DifferentialMap(const std::vector<Deposit<V, F, N>>& deposits, const EyePathMap<V>& eyes, const Policies& policies,
@@ -52,10 +51,10 @@ public:
     template <class Response>
     [[nodiscard]] F operator()(const V& position, const V& normal, const Response& response) const {
         F sum = flux_traits<F>::zero();
-        const V place = position - origin_;
-        map_.visit_leaves(place, [&](const TreeLeaf& leaf) {
-            std::array<T, FootprintMap<V>::leaf_size> weight;
-            weigh(leaf, place, normal, weight);
+        const V relative = position - origin_;
+        map_.visit_leaves(relative, [&](const TreeLeaf& leaf) {
+            std::array<T, detail::FootprintMap<V>::leaf_size> weight;
+            weigh(leaf, relative, normal, weight);
             for (std::size_t i = 0; i < leaf.size; ++i)
                 if (weight[i] > T(0))
                     add(sum, leaf.first + i, weight[i], response);
@@ -119,16 +118,16 @@ private:
         }
     }
 
-    /// The kernels of a leaf's photons at a place, relative to the origin: the splatter's inner loop, with one vertex
+    /// The kernels of a leaf's photons at a position relative to the origin: the splatter's inner loop, for one vertex
     /// and many photons.
-    void weigh(const TreeLeaf& leaf, const V& place, const V& normal,
-               std::array<T, FootprintMap<V>::leaf_size>& weight) const {
+    void weigh(const TreeLeaf& leaf, const V& relative, const V& normal,
+               std::array<T, detail::FootprintMap<V>::leaf_size>& weight) const {
         using t = vector_traits<V>;
-        constexpr std::size_t lanes = FootprintMap<V>::lanes;
+        constexpr std::size_t lanes = detail::FootprintMap<V>::lanes;
         std::array<const T*, columns> c;
         for (std::size_t column = 0; column < columns; ++column)
             c[column] = columns_[column].data() + leaf.first;
-        const T px = t::x(place), py = t::y(place), pz = t::z(place);
+        const T px = t::x(relative), py = t::y(relative), pz = t::z(relative);
         const T mx = t::x(normal), my = t::y(normal), mz = t::z(normal);
         const std::size_t size = (leaf.size + lanes - 1) / lanes * lanes;
         for (std::size_t i = 0; i < size; ++i) {
@@ -151,7 +150,7 @@ private:
 
     static constexpr std::size_t columns = 15; // the coordinates of a splat's five vectors, each an array by slot
 
-    FootprintMap<V> map_;
+    detail::FootprintMap<V> map_;
     V origin_;
     K kernel_;
     Statistics statistics_;

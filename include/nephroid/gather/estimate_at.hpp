@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  An estimate at every eye path vertex: the loop over the picture.
+/// @file  The loop over the picture: an estimate at every eye path vertex.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -14,15 +14,14 @@
 
 namespace nephroid {
 
-/// Calls sink(vertex index, estimate(position, normal)) for every vertex of the user's array, serially and in its
-/// order, when all have been estimated. For a fast look-up the order should be the picture's: neighbours follow each
-/// other.
+/// Estimates at every vertex of the user's array, then calls sink(vertex index, estimate) serially and in the array's
+/// order. Look-ups are fast where neighbouring vertices follow each other, as in a picture.
 ///
 /// @param vertices  a random-access range
 /// @param position  projection: a member pointer or a callable
 /// @param normal    projection, unit
-/// @param estimate  NearestPhotons, FixedRange, DifferentialMap, DiffusionEstimate, or any callable like them; called
-///                  from several threads at once
+/// @param estimate  estimate(position, normal): NearestPhotons, FixedRange, DifferentialMap, DiffusionEstimate, or any
+///                  callable like them; called from several threads at once
 /// @param executor  who runs the work; the result does not depend on it
 /// @param sink      `Sink`
 template <std::ranges::random_access_range Vertices, class Position, class Normal, class Estimate, class E, class S>

@@ -8,12 +8,12 @@ namespace nephroid {
 
 struct FixedRangeOptions {
     double range;               ///< R > 0, world units: the radius of the kernel
-    double normal_distance = 1; ///< photons further than this many radii from the tangent plane do not count; 1
-                                ///< and more leaves the sphere
+    double normal_distance = 1; ///< photons farther than this many radii from the tangent plane do not count; from 1
+                                ///< on all in the sphere do
 };
 
 /// Estimates irradiance as Σ Φ K(r²/R²)/R² over the photons within R on the side that the normal faces. The kernel
-/// is the same everywhere, so on a plane the light's energy is kept but for the borders.
+/// is the same everywhere, so on a plane no energy is lost but at the borders.
 ///
 /// ```cpp
 /// const nephroid::FixedRange estimate(map, {.range = 0.02});
@@ -31,8 +31,8 @@ public:
     FixedRange(const PhotonMap<V, F>& map, FixedRangeOptions options, K kernel = {})
         : map_(&map), range_(T(options.range)), thickness_(T(options.normal_distance * options.range)),
           kernel_(kernel) {
-        detail::check_length("nephroid::FixedRange", "range", options.range, false);
-        detail::check_length("nephroid::FixedRange", "normal_distance", options.normal_distance, true);
+        detail::check_radius<T>("nephroid::FixedRange", "range", options.range, false);
+        detail::check_positive("nephroid::FixedRange", "normal_distance", options.normal_distance, true);
     }
     FixedRange(const PhotonMap<V, F>&&, FixedRangeOptions, K = {}) = delete; // would refer to a temporary
 

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-/// @file  The footprint map: which of many boxes of very different sizes may hold a point.
+/// @file  The footprint map: finds which of many boxes of very different sizes may hold a point.
 #pragma once
 
 #include "nephroid/tree/point_tree.hpp"
 
 #include <cmath>
 
-namespace nephroid {
+namespace nephroid::detail {
 
-/// Boxes about points, in kd-trees of the points whose nodes' boxes are extended about the boxes in them. There is a
-/// tree for every power of four of the boxes' sizes, so that a few large ones do not make every leaf large.
+/// Boxes in kd-trees of their centres, whose nodes are extended to enclose the boxes in them. There is a tree for every
+/// power of four of the boxes' sizes, so that a few large ones do not make every leaf large.
 ///
-/// The boxes are put in leaf order: slot after slot, one tree after the other, leaves starting at multiples of
-/// `PointTree::lanes` and filled up by repeating their last slot, as in PointTree.
+/// The boxes have slots in leaf order, one tree after the other. Leaves start at multiples of `PointTree::lanes` and
+/// repeat their last slot up to the next, as in PointTree.
 template <Vector3 V>
 class FootprintMap {
 public:
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    /// The power of four that a box's longest side is below.
+    /// The exponent of the least power of four above a box's longest side.
     [[nodiscard]] static int size_class(std::size_t i, const Box<T>& box, const char* who) {
         T side(0);
         for (std::size_t axis = 0; axis < 3; ++axis)
@@ -86,7 +86,7 @@ private:
         return (exponent - (exponent & 1)) / 2;
     }
 
-    /// A tree for these boxes, after those there are.
+    /// Appends a tree of these boxes.
     template <class Centre, class BoxOf>
     void append(const std::vector<std::uint32_t>& members, Centre& centre, BoxOf& box, const char* who) {
         const PointTree<V> tree(
@@ -100,7 +100,7 @@ private:
         for (const TreeNode<T>& node : tree.nodes())
             nodes_.push_back(
                 {nothing, first_node + node.skip, node.leaf == no_leaf ? no_leaf : first_leaf + node.leaf});
-        // Children follow their parents: backwards, both are there when the parent's turn comes.
+        // Children follow their parents: going backwards, both are ready before the parent.
         for (std::size_t i = nodes_.size(); i-- > first_node;) {
             TreeNode<T>& node = nodes_[i];
             if (node.leaf == no_leaf) {
@@ -129,4 +129,4 @@ private:
     std::vector<std::uint32_t> index_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What the estimators that gather stored photons have in common.
+/// @file  The parts that all estimators from stored photons share.
 #pragma once
 
 #include "nephroid/footprint/kernel.hpp"
@@ -10,8 +10,8 @@
 namespace nephroid {
 
 namespace detail {
-/// Room for neighbours, one per thread and scalar type: it grows to the largest look-up and stays, so that a look-up
-/// needs neither a lock nor an allocation.
+/// Memory for neighbours, one per thread and scalar type. It grows to the largest look-up and is kept, so that a
+/// look-up needs neither a lock nor an allocation.
 template <Scalar T>
 [[nodiscard]] std::span<Neighbour<T>> neighbours(std::size_t count) {
     thread_local std::vector<Neighbour<T>> scratch;
@@ -20,18 +20,23 @@ template <Scalar T>
     return {scratch.data(), count};
 }
 
-/// Diffuse surfaces: their response does not depend on where light comes from, and is the caller's to multiply with.
+/// For diffuse surfaces: their response does not depend on where light comes from, so the caller multiplies by it.
 struct NoResponse {};
 
-/// How far above the tangent plane of a place (relative to the tree's origin) a photon lies.
+/// The position of the photon in a slot, relative to the tree's origin.
 template <Vector3 V, Flux F>
-[[nodiscard]] scalar_t<V> height(const PhotonMap<V, F>& map, std::size_t slot, const V& relative_place,
-                                 const V& normal) {
+[[nodiscard]] V point(const PhotonMap<V, F>& map, std::size_t slot) {
     const PointTree<V>& tree = map.tree();
-    return dot(V(make_vector<V>(tree.x()[slot], tree.y()[slot], tree.z()[slot]) - relative_place), normal);
+    return make_vector<V>(tree.x()[slot], tree.y()[slot], tree.z()[slot]);
 }
 
-/// Adds a photon's share to a sum.
+/// How far a photon lies above the tangent plane of a position (relative to the tree's origin).
+template <Vector3 V, Flux F>
+[[nodiscard]] scalar_t<V> height(const PhotonMap<V, F>& map, std::size_t slot, const V& relative, const V& normal) {
+    return dot(V(point(map, slot) - relative), normal);
+}
+
+/// Adds a photon's flux times its weight to a sum.
 template <Vector3 V, Flux F, class Response>
 void receive(F& sum, const PhotonMap<V, F>& map, std::size_t slot, scalar_t<V> weight, const Response& response) {
     if constexpr (std::same_as<Response, NoResponse>)
@@ -40,14 +45,24 @@ void receive(F& sum, const PhotonMap<V, F>& map, std::size_t slot, scalar_t<V> w
         sum = sum + map.flux(slot) * weight * response(map.direction(slot));
 }
 
-/// A length option: positive, and finite unless infinity means that there is no bound.
-inline void check_length(const char* who, const char* name, double length, bool may_be_infinite) {
-    if (!(length > 0) || (!may_be_infinite && !std::isfinite(length)))
-        invalid_argument(std::string(who) + ": " + name + " is " + text_of(length) + "; it must be positive" +
+/// Refuses an option that is not positive, or not finite unless infinity means that there is no bound.
+inline void check_positive(const char* who, const char* name, double value, bool may_be_infinite) {
+    if (!(value > 0) || (!may_be_infinite && !std::isfinite(value)))
+        invalid_argument(std::string(who) + ": " + name + " is " + text_of(value) + "; it must be positive" +
                          (may_be_infinite ? "" : " and finite"));
 }
 
-/// Calls use(slot, squared distance) for every photon nearer to a place than a radius and on the side that a normal
+/// Besides, refuses a radius whose square leaves the range of T: estimates divide by it.
+template <Scalar T>
+void check_radius(const char* who, const char* name, double radius, bool may_be_infinite) {
+    check_positive(who, name, radius, may_be_infinite);
+    const T radius2 = square(T(radius));
+    if (!(radius2 > T(0)) || !isfinite(T(T(1) / radius2)) || (!may_be_infinite && !isfinite(radius2)))
+        invalid_argument(std::string(who) + ": " + name + " is " + text_of(radius) +
+                         ", whose square the scalar type cannot hold; use another unit of length");
+}
+
+/// Calls use(slot, squared distance) for every photon within a radius of a position and on the side that the normal
 /// points to, in leaf order.
 template <Vector3 V, Flux F, class Use>
 void for_each_within(const PhotonMap<V, F>& map, const V& position, const V& normal, scalar_t<V> radius, Use&& use) {

@@ -11,38 +11,36 @@ namespace nephroid {
 
 struct NearestPhotonsOptions {
     std::size_t count = 50;                                 ///< k >= 2: the bandwidth
-    double range = std::numeric_limits<double>::infinity(); ///< photons further away do not count, world units, > 0
+    double range = std::numeric_limits<double>::infinity(); ///< photons farther away do not count, world units, > 0
     bool differential_checking = false;                     ///< fewer photons where the light changes
     DifferentialChecking checking{};                        ///< how, if so
-    double normal_distance = 1; ///< photons further than this many radii from the tangent plane do not count; 1 and
-                                ///< more leaves the sphere
+    double normal_distance = 1; ///< photons farther than this many radii from the tangent plane do not count; from 1
+                                ///< on all in the sphere do
 };
 
 /// Estimates irradiance as Σ Φ K(r²/R²)/R² over the photons nearest to a point, R the distance of the k-th.
 ///
-/// Only photons on the side that the normal faces are looked for, so that k is the number that counts. The k-th photon
-/// gives R and nothing else: K is zero at the rim. That is the consistent choice. For photons spread at random with
-/// density ρ the other k − 1 lie uniformly in the disk and E[1/(π R²)] = ρ/(k − 1), so the estimate is unbiased
-/// for every kernel; counting the k-th in, as Σ Φ/(π R²) over all k does, makes the mean k/(k − 1) too large.
+/// Only photons on the side that the normal faces are searched for, so all k of them count. The k-th photon gives R and
+/// nothing else, as K is zero at the rim: for random photons this makes the estimate unbiased with every kernel.
 ///
-/// Where `range` holds fewer than k photons, R is the range. Where there are fewer than k in all and no range, R is
-/// the distance of the farthest. R is never less than what positions resolve there, four epsilon of the distance from
-/// the world's origin: where k photons lie in one place, the estimate is large, and not infinite.
+/// Where `range` holds fewer than k photons, R is the range. Where there are fewer than k in all and no range, R is the
+/// distance of the farthest. R is never below the resolution of positions, four epsilon of the distance from the
+/// world's origin: where k photons lie in one place, the estimate is large and not infinite.
 ///
 /// ```cpp
 /// const nephroid::NearestPhotons estimate(map, {.count = 100}, nephroid::ConeKernel{});
 /// const float e = estimate(position, normal);
 /// ```
 ///
-/// Calls from several threads at once are fine; each thread keeps room for k neighbours. A response must therefore not
-/// ask for another estimate of nearest photons itself.
+/// Several threads may call at once; each keeps memory for k neighbours. A response must therefore not call another
+/// estimate from nearest photons itself.
 template <Vector3 V, Flux F, class K = BiweightKernel>
     requires Kernel<K, scalar_t<V>>
 class NearestPhotons {
 public:
     using T = scalar_t<V>;
 
-    /// @param map  is referred to, and must outlive the estimate
+    /// @param map     is referred to, and must outlive the estimate
     /// @param kernel  UniformKernel, ConeKernel (Jensen's with k = 1), BiweightKernel, … (footprint/kernel.hpp)
     /// Throws std::invalid_argument for k < 2 (a single photon gives no area), and for lengths that are not positive.
     NearestPhotons(const PhotonMap<V, F>& map, NearestPhotonsOptions options = {}, K kernel = {})
@@ -51,8 +49,8 @@ public:
         if (options.count < 2)
             invalid_argument(std::string(who) + ": count is " + std::to_string(options.count) +
                              "; the farthest photon only sets the radius, so it must be at least 2");
-        detail::check_length(who, "range", options.range, true);
-        detail::check_length(who, "normal_distance", options.normal_distance, true);
+        detail::check_radius<T>(who, "range", options.range, true);
+        detail::check_positive(who, "normal_distance", options.normal_distance, true);
         if (options.differential_checking)
             detail::check(options.checking, who);
         range2_ = square(T(options.range));
@@ -88,11 +86,11 @@ public:
 
         const T scale = T(1) / radius2, thickness2 = square(T(options_.normal_distance)) * radius2;
         const bool slab = options_.normal_distance < 1;
-        const T inside = T(1) - std::numeric_limits<T>::epsilon(); // the rim, as seen from within
+        const T inside = T(1) - std::numeric_limits<T>::epsilon(); // just inside the rim
         F rim = flux_traits<F>::zero();
         std::size_t on_rim = 0;
         for (const Neighbour<T>& n : neighbours) {
-            const bool is_on_rim = !(n.distance2 < radius2); // by itself: radius2 * (1 / radius2) may be less than 1
+            const bool is_on_rim = !(n.distance2 < radius2); // not by `scale`: radius2 * (1 / radius2) may be below 1
             on_rim += std::size_t(is_on_rim);
             if (slab && !(square(detail::height(*map_, n.slot, relative, normal)) < thickness2))
                 continue;
@@ -108,7 +106,7 @@ private:
         T radius2;
     };
 
-    /// The photons that count, and the squared radius that they are taken to lie in.
+    /// The photons that count, and the squared radius of the disk around them.
     [[nodiscard]] Disk disk(std::span<Neighbour<T>> found, T least_radius2) const {
         const auto nearer = [](const Neighbour<T>& a, const Neighbour<T>& b) { return a.distance2 < b.distance2; };
         if (found.empty())
@@ -130,7 +128,7 @@ private:
     NearestPhotonsOptions options_;
     K kernel_;
     T range2_;
-    T least_radius_; ///< at the origin itself
+    T least_radius_; ///< at the world's origin
 };
 
 } // namespace nephroid

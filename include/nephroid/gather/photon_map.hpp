@@ -11,8 +11,8 @@
 
 namespace nephroid {
 
-/// Stored photons in a kd-tree, copied from the user's own array; the same tree and the same leaf order as the eye path
-/// map's, so that an estimate reads contiguous slots.
+/// Stored photons in a kd-tree, copied from the user's own array. Photons of a leaf have contiguous slots, as vertices
+/// have in the eye path map.
 ///
 /// ```cpp
 /// const nephroid::PhotonMap map(traced.deposits);
@@ -63,11 +63,7 @@ public:
             diagonal2 = diagonal2 + square(box.high[axis] - box.low[axis]);
         return sqrt(diagonal2);
     }
-    /// Normals by slot of the tree's leaf order.
-    [[nodiscard]] const T* normal_x() const { return normals_[0].data(); }
-    [[nodiscard]] const T* normal_y() const { return normals_[1].data(); }
-    [[nodiscard]] const T* normal_z() const { return normals_[2].data(); }
-    /// By slot as well.
+    /// By slot of the tree's leaf order, as the direction and the flux.
     [[nodiscard]] V normal(std::size_t slot) const {
         return make_vector<V>(normals_[0][slot], normals_[1][slot], normals_[2][slot]);
     }

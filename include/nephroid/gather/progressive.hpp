@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Progressive photon mapping: pass after pass of photons with a radius that shrinks, no end to their number.
+/// @file  Progressive photon mapping: any number of passes of photons, with a radius that shrinks from pass to pass.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -17,13 +17,19 @@ inline void check_alpha(const char* who, double alpha) {
 }
 } // namespace detail
 
-/// The radius of pass after pass, the same for every vertex: r² ← r² (i + α)/(i + 1) after pass i = 1, 2, …, so
-/// that r² falls like i^(α−1): the mean of the passes' estimates loses its bias like that, and its variance like
+struct ShrinkingRadiusOptions {
+    double radius; ///< of the first pass, > 0: world units, or a smoothing
+    /// In (0, 1]: the fraction of a pass's photons that is kept as the radius shrinks. The error falls fastest for 2/3.
+    double alpha = 2.0 / 3;
+};
+
+/// The radius of each pass, the same for every vertex: r² ← r² (i + α)/(i + 1) after pass i = 1, 2, …, so that
+/// r² falls like i^(α−1). The bias of the mean over the passes falls like that too, and its variance like
 /// i^(−α).
 ///
-/// With FixedRange, photons of each pass in a map of their own and estimates averaged over the passes, this is
-/// progressive photon mapping without statistics [Knaus and Zwicker 2011]. A photon's footprint is as wide as its
-/// smoothing s, so the same sequence of s makes photon differential splatting progressive, without any photon map:
+/// With FixedRange, a map for each pass and estimates averaged over the passes, this is progressive photon mapping
+/// without statistics [Knaus and Zwicker 2011]. A photon's footprint is as wide as its smoothing s, so the same
+/// sequence of s makes photon differential splatting progressive, without any photon map:
 ///
 /// ```cpp
 /// nephroid::ShrinkingRadius s({.radius = 10});
@@ -31,23 +37,16 @@ inline void check_alpha(const char* who, double alpha) {
 ///     nephroid::splat_caustics(scene, light, splatter, {.first = i * n, .count = n, .smoothing = s.radius()});
 /// // the splatter's sums over `passes` are the picture
 /// ```
-struct ShrinkingRadiusOptions {
-    double radius; ///< of the first pass, > 0: world units, or a smoothing
-    double alpha =
-        2.0 / 3; ///< in (0, 1]: what share of a pass's photons is kept as the radius shrinks; the error falls
-                 ///< fastest for 2/3
-};
-
 class ShrinkingRadius {
 public:
     /// Throws std::invalid_argument for a radius that is not positive and finite and an α outside of (0, 1].
     explicit ShrinkingRadius(ShrinkingRadiusOptions options)
         : radius2_(options.radius * options.radius), alpha_(options.alpha) {
-        detail::check_length("nephroid::ShrinkingRadius", "radius", options.radius, false);
+        detail::check_radius<double>("nephroid::ShrinkingRadius", "radius", options.radius, false);
         detail::check_alpha("nephroid::ShrinkingRadius", options.alpha);
     }
 
-    /// Of the pass at hand.
+    /// Of the current pass.
     [[nodiscard]] double radius() const { return std::sqrt(radius2_); }
     /// Goes on to the next pass.
     void advance() {
@@ -62,11 +61,11 @@ private:
 
 struct ProgressiveOptions {
     double radius;          ///< r₀ > 0, world units: of every vertex at first
-    double alpha = 2.0 / 3; ///< in (0, 1]: the share of a pass's photons that is kept
+    double alpha = 2.0 / 3; ///< in (0, 1]: the fraction of a pass's photons that is kept
 };
 
-/// Progressive photon mapping with statistics at every eye path vertex: each has a radius of its own, which shrinks as
-/// photons arrive, r² ← r² (n + αm)/(n + m) for m new ones, and the flux within it with it.
+/// Progressive photon mapping with statistics at every eye path vertex. Each vertex has its own radius, which shrinks
+/// as photons arrive, r² ← r² (n + αm)/(n + m) for m new ones; the flux within is scaled by the same factor.
 /// Source: Hachisuka, Ogaki and Jensen 2008.
 ///
 /// ```cpp
@@ -93,7 +92,7 @@ public:
     ProgressivePhotonMapping(const Vertices& vertices, Position position, Normal normal, ProgressiveOptions options)
         : alpha_(options.alpha) {
         constexpr const char* who = "nephroid::ProgressivePhotonMapping";
-        detail::check_length(who, "radius", options.radius, false);
+        detail::check_radius<T>(who, "radius", options.radius, false);
         detail::check_alpha(who, options.alpha);
         vertices_.reserve(std::size_t(std::ranges::size(vertices)));
         for (const auto& vertex : vertices) {
@@ -130,7 +129,7 @@ public:
     }
     /// The radius at a vertex, world units.
     [[nodiscard]] T radius(std::size_t vertex) const { return T(std::sqrt(vertices_[vertex].radius2)); }
-    /// The photons that a vertex is counted to have: n, which αm are added to in a pass with m.
+    /// The number of photons that a vertex keeps: n, which grows by αm in a pass with m.
     [[nodiscard]] double photons(std::size_t vertex) const { return vertices_[vertex].photons; }
     [[nodiscard]] std::size_t size() const { return vertices_.size(); }
 
@@ -139,7 +138,7 @@ private:
         V position, normal;
         double radius2; ///< in double: thousands of passes multiply it
         double photons;
-        F flux; ///< τ: within the radius, as if each pass had emitted one photon
+        F flux; ///< τ: within the radius, as if each pass had emitted one photon; not divided by the area
     };
 
     void add_to(Statistic& v, const PhotonMap<V, F>& map, double emitted) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Photons traced and kept: what photon maps are made of.
+/// @file  Traces photons and keeps them, for photon maps.
 #pragma once
 
 #include "nephroid/emission/without_tangents.hpp"
@@ -22,8 +22,8 @@ struct PhotonTrace {
     Statistics statistics;                  ///< Fate::splatted are those stored in `deposits`
 };
 
-/// Emits photons, walks them through the scene and keeps those that `splat_caustics` would splat: the same photons, bit
-/// for bit, from the same indices and samples.
+/// Emits photons, walks them through the scene and keeps those that reach a diffuse surface through a specular one: bit
+/// for bit the photons that `splat_caustics` splats for the same indices and samples.
 ///
 /// @param scene     the renderer's (transport/scene.hpp); used from several threads
 /// @param light     as for `splat_caustics`; `WithoutTangents(light)` where no footprints are needed: the deposits have
@@ -32,8 +32,8 @@ struct PhotonTrace {
 ///                  `progress` is called between batches
 /// @param sequence  where photon i's numbers come from
 /// @param executor  who runs the work; the result does not depend on it, bit for bit
-/// @return  the photons stored, and what became of the others. A deposit whose position is not finite is invalid and
-///          not stored.
+/// @return  the photons stored, and the fates of all. A deposit whose position is not finite is invalid and not
+///          stored.
 /// Throws std::invalid_argument for zero photons or a smoothing that is not positive. Memory: every photon stored.
 template <class S, class L, SampleSequence Sequence = HaltonSequence, class E = SerialExecutor>
     requires PhotonSource<L> && Scene<S, typename L::vector, Sampler<Sequence>> && ExecutorArgument<E>

@@ -9,6 +9,7 @@
 
 #include "nephroid/emission/emission_sample.hpp"
 #include "nephroid/emission/without_tangents.hpp"
+#include "nephroid/execution/counting_sort.hpp"
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/sequence/sequence.hpp"
 
@@ -62,24 +63,23 @@ public:
                                        E& executor) {
         const std::size_t tasks = (count + photons_per_task - 1) / photons_per_task;
         photons_.resize(count);
-        sorted_.resize(count);
-        begin_.resize(tasks);
+        sorted_.start(tasks, parts);
         executor(tasks, [&](std::size_t task) {
             place(light, sequence, first, task);
-            begin_[task] = {};
             for (const PlacedPhoton& p : photons_of(task))
-                ++begin_[task][part_of(p)];
+                sorted_.count(task, part_of(p));
         });
-        const std::array<std::size_t, parts + 1> part_begin = add_up();
+        sorted_.make_room();
         executor(tasks, [&](std::size_t task) {
             for (const PlacedPhoton& p : photons_of(task))
-                sorted_[begin_[task][part_of(p)]++] = p;
+                sorted_.put(task, part_of(p), p);
         });
         executor(parts, [&](std::size_t part) {
-            const std::size_t from = part_begin[part], size = part_begin[part + 1] - from;
-            sort_part(std::span(sorted_).subspan(from, size), std::span(photons_).subspan(from, size));
+            const std::span<PlacedPhoton> sorted = sorted_.items_of(part);
+            const auto from = std::size_t(sorted.data() - sorted_.items().data());
+            sort_part(sorted, std::span(photons_).subspan(from, sorted.size()));
         });
-        return sorted_;
+        return sorted_.items();
     }
 
 private:
@@ -104,19 +104,6 @@ private:
         }
     }
 
-    /// Turns each task's counts into where its photons of each part go, and returns where the parts begin.
-    [[nodiscard]] std::array<std::size_t, parts + 1> add_up() {
-        std::array<std::size_t, parts + 1> part_begin{};
-        std::size_t sum = 0;
-        for (std::size_t part = 0; part < parts; ++part) {
-            part_begin[part] = sum;
-            for (auto& begin : begin_)
-                sum += std::exchange(begin[part], sum);
-        }
-        part_begin[parts] = sum;
-        return part_begin;
-    }
-
     /// By the place's lower bytes, from the lowest one on, each pass keeping the order that the one before left.
     static void sort_part(std::span<PlacedPhoton> photons, std::span<PlacedPhoton> scratch) {
         for (unsigned shift = 0; shift < 24 && !photons.empty(); shift += 8) {
@@ -135,8 +122,8 @@ private:
         }
     }
 
-    std::vector<PlacedPhoton> photons_, sorted_;
-    std::vector<std::array<std::size_t, parts>> begin_; ///< by task: how many of each part, then where the next goes
+    std::vector<PlacedPhoton> photons_;
+    detail::CountingSort<PlacedPhoton> sorted_; ///< by the first byte of the place, then each part by the others
 };
 
 } // namespace nephroid

@@ -36,7 +36,7 @@ template <Pixels Image, Pixels Reference>
     return std::sqrt(sum / static_cast<double>(size));
 }
 
-/// The sum of a reference that something is divided by: refused unless positive.
+/// The sum of a reference, which an error is divided by: refused unless positive.
 template <Pixels Reference>
 [[nodiscard]] double positive_sum(const char* function, const Reference& reference) {
     const double sum = sum_of(reference);
@@ -77,7 +77,7 @@ template <Pixels Image, Pixels Reference>
 ///
 /// @param image      irradiance, linear and not clipped, pixels of equal area
 /// @param reference  as many pixels, with a positive mean
-/// @return  -0.01 when one per cent is lost; blur moves energy but leaves this at 0
+/// @return  -0.01 where one per cent is lost; 0 for blur, which moves energy and loses none
 template <Pixels Image, Pixels Reference>
 [[nodiscard]] double energy_error(const Image& image, const Reference& reference) {
     detail::require_comparable("nephroid::energy_error", image, reference);

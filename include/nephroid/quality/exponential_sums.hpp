@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The Fourier transform of a few points at many integer frequencies, summed directly.
+/// @file  The Fourier transform of a set of points at many integer frequencies, summed directly.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// A point of the unit square that counts `weight` times.
 struct WeightedPoint {
@@ -20,8 +20,9 @@ struct WeightedPoint {
     double weight = 1;
 };
 
-/// Four real sums over the points, each with its weight: the transform at (i, j) is cc − ss − i (sc + cs), that at
-/// (i, −j) is cc + ss − i (sc − cs), so that one quarter of the plane gives two, and the other two are conjugate.
+/// Four real sums over the weighted points. The transform is cc − ss − i (sc + cs) at (i, j) and cc + ss − i (sc
+/// − cs) at (i, −j): the sums of one quarter of the plane give two quarters, and the other two are their
+/// conjugates.
 struct TrigonometricSums {
     double cc = 0; ///< Σ cos(2π i x) cos(2π j y)
     double cs = 0; ///< Σ cos(2π i x) sin(2π j y)
@@ -34,13 +35,11 @@ struct TrigonometricSums {
     [[nodiscard]] double mirrored_square() const { return (cc + ss) * (cc + ss) + (sc - cs) * (sc - cs); }
 };
 
-namespace detail {
-
-/// A few frequencies at a time, so that their sums stay in registers.
+/// Frequencies that are summed together, few enough for their sums to stay in registers.
 inline constexpr std::size_t sum_lanes = 8;
 using SumLanes = std::array<float, sum_lanes>;
 
-/// cos and sin of 2π j y for a block of points: for a group g of lanes the frequencies g · sum_lanes + lane.
+/// cos and sin of 2π j y for a block of points; group g holds the frequencies j = g · sum_lanes + lane.
 class WaveTable {
 public:
     struct Entry {
@@ -50,7 +49,8 @@ public:
     WaveTable(std::size_t frequencies, std::size_t most_points)
         : groups_((frequencies + sum_lanes - 1) / sum_lanes), stride_(most_points), entries_(groups_ * most_points) {}
 
-    /// By turning each lane on by sum_lanes frequencies, in double: after g turns the error is about g epsilon.
+    /// Rotates each lane by sum_lanes frequencies from group to group, in double: after g rotations the error is about
+    /// g epsilon.
     void fill(std::span<const WeightedPoint> points) {
         for (std::size_t p = 0; p < points.size(); ++p) {
             const double angle = 2 * std::numbers::pi * points[p].y;
@@ -106,9 +106,7 @@ inline void add_block(std::span<const Wave> waves, const WaveTable::Entry* table
     }
 }
 
-} // namespace detail
-
-/// The sums at all frequencies (i, j) with 0 <= i, j and i² + j² <= highest², by cost 4 · points · π/4 ·
+/// The sums at all frequencies (i, j) with 0 <= i, j and i² + j² <= highest². They cost 4 · points · π/4 ·
 /// highest² multiplications and additions in single precision.
 ///
 /// @param points    finite, not checked
@@ -124,13 +122,13 @@ template <Executor E = SerialExecutor>
     std::vector<TrigonometricSums> all(side * side);
     executor((side + rows - 1) / rows, [&](std::size_t task) {
         const std::size_t first = task * rows, last = (std::min)(first + rows, side);
-        // The longest row of the task, a quarter disk's first.
+        // The longest row of the task is its first one, as the frequencies fill a quarter disk.
         const double reach = std::sqrt(static_cast<double>(highest * highest - first * first));
-        const std::size_t groups = static_cast<std::size_t>(reach) / detail::sum_lanes + 1;
-        const std::size_t width = groups * detail::sum_lanes;
-        detail::WaveTable table(width, block);
+        const std::size_t groups = static_cast<std::size_t>(reach) / sum_lanes + 1;
+        const std::size_t width = groups * sum_lanes;
+        WaveTable table(width, block);
         std::vector<TrigonometricSums> sums((last - first) * width);
-        std::vector<detail::Wave> waves(block);
+        std::vector<Wave> waves(block);
         for (std::size_t begin = 0; begin < points.size(); begin += block) {
             const auto some = points.subspan(begin, (std::min)(block, points.size() - begin));
             table.fill(some);
@@ -141,8 +139,8 @@ template <Executor E = SerialExecutor>
                                 static_cast<float>(some[p].weight * std::sin(angle))};
                 }
                 for (std::size_t group = 0; group < groups; ++group)
-                    detail::add_block(std::span(waves).first(some.size()), table.group(group),
-                                      sums.data() + (i - first) * width + group * detail::sum_lanes);
+                    add_block(std::span(waves).first(some.size()), table.group(group),
+                              sums.data() + (i - first) * width + group * sum_lanes);
             }
         }
         for (std::size_t i = first; i < last; ++i)
@@ -152,4 +150,4 @@ template <Executor E = SerialExecutor>
     return all;
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Errors "for pictures": both images exposed by the reference's median and clipped, as a viewer would see them.
+/// @file  Errors of pictures as a viewer sees them: both images exposed by the reference's median and clipped.
 #pragma once
 
 #include "nephroid/quality/error.hpp"
@@ -16,7 +16,7 @@ namespace nephroid {
 
 /// The factor that shows the median of the lit pixels as middle grey: 0.5 / median(E_ref > 0).
 ///
-/// A caustic's peaks have no bound and its shadows are black, so neither maximum nor mean makes a steady exposure.
+/// A caustic's peaks are unbounded and its shadows black, so neither the maximum nor the mean gives a steady exposure.
 /// @param reference  irradiance or radiance, linear; lit pixels are those above 0, and there must be one.
 ///                   The median of an even number of pixels is the mean of the middle two
 /// @return  > 0, per unit of the pixels
@@ -41,7 +41,7 @@ template <Pixels Reference>
     return exposure;
 }
 
-/// What a viewer sees of an image: clip(E * exposure, 0, 1).
+/// The picture that a viewer sees of an image: clip(E * exposure, 0, 1).
 ///
 /// @param image     linear, finite (not checked)
 /// @param exposure  > 0, from `picture_exposure` of the reference for both images of a comparison
@@ -58,7 +58,7 @@ template <Pixels Image>
 /// How an image differs from its reference as a picture.
 struct PictureError {
     double rmse = 0; ///< of the exposed and clipped pixels, in [0, 1]
-    double ssim = 1; ///< of the same, in [-1, 1]; 1 when they are equal
+    double ssim = 1; ///< of the same, in [-1, 1]; 1 where they are equal
 };
 
 /// Clipped RMSE and SSIM: both images exposed by the *reference's* median, clipped to [0, 1], then compared.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What the quality measures take as an image, and how they refuse a bad one.
+/// @file  The images that quality measures take, and the checks that refuse bad ones.
 #pragma once
 
 #include "nephroid/vector/error.hpp"
@@ -13,8 +13,8 @@
 namespace nephroid {
 
 /// The pixels of one channel, contiguous: `std::vector<float>`, `std::span<const double>`, ...
-/// Row-major where a measure also asks for width and height; which end is up does not matter to any of them.
-/// A colour image is measured channel by channel, or as its luminance.
+/// Row-major where a measure also takes width and height; either end may be up. Measure a colour image channel by
+/// channel, or its luminance.
 template <class P>
 concept Pixels = std::ranges::contiguous_range<const P> && std::ranges::sized_range<const P> &&
     std::floating_point<std::ranges::range_value_t<const P>>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How blue a point set's noise is: its power spectrum by radius, and how much that depends on direction.
+/// @file  The power spectrum of point sets: by frequency, by radius, and how much it depends on direction.
 #pragma once
 
 #include "nephroid/quality/exponential_sums.hpp"
@@ -24,35 +24,35 @@ concept PlanePoints = std::ranges::input_range<const P> && requires(const std::r
     { point[1] } -> std::convertible_to<double>;
 };
 
-/// What the spectrum is told about the unit square's border.
+/// How the spectrum treats the border of the unit square.
 enum class SpectralWindow {
-    periodic, ///< nothing lies beyond that is not inside already; or all points lie inside, as many as there are
-    hann      ///< the points were cut out of a larger set: weights sin²(πx) sin²(πy) fade the cut, which would else
-              ///< spread the spectrum's peaks to all frequencies; features become two frequencies wider
+    periodic, ///< not at all: the points repeat beyond it, or all of the set lies inside
+    hann ///< the points were cut out of a larger set: weights sin²(πx) sin²(πy) fade the cut, which would otherwise
+         ///< smear the spectrum's peaks over all frequencies; features become two frequencies wider
 };
 
-/// The spectrum at radius about k: of the integer frequencies f with k − 1/2 <= |f| < k + 1/2.
+/// The spectrum in one annulus: at the integer frequencies f with k − 1/2 <= |f| < k + 1/2.
 struct Annulus {
     double frequency = 0;        ///< k, cycles per side of the unit square, 1, 2, …
-    std::size_t frequencies = 0; ///< how many independent ones: half the plane, as power is symmetric
-    double power = 0;            ///< their mean; white noise has 1
-    double anisotropy = 0; ///< sample variance / mean²; white noise and what looks the same in all directions have
-                           ///< 1 / number of sets averaged. 0 where all are equal, or zero
+    std::size_t frequencies = 0; ///< how many independent ones: those of half the plane, as power is symmetric
+    double power = 0;            ///< their mean power; white noise has 1
+    double anisotropy = 0;       ///< sample variance / mean² of their power; white noise and other isotropic sets have
+                                 ///< 1 / number of sets averaged. 0 where all are equal, or zero
 };
 
 /// 10 log10(ratio): 0 dB for 1, minus infinity for 0.
 [[nodiscard]] inline double decibels(double ratio) { return 10 * std::log10(ratio); }
 
-/// Where the spectrum of evenly spread points has its first peak: the frequency of the hexagonal packing that has as
-/// many points in the unit square, sqrt(2 N / sqrt(3)), cycles per side.
+/// The frequency of the first peak in the spectrum of evenly spaced points, cycles per side: that of the hexagonal
+/// packing with as many points in the unit square, sqrt(2 N / sqrt(3)).
 /// Source: Ulichney 1988; Lagae and Dutré 2008, "A comparison of methods for generating Poisson disk distributions".
 [[nodiscard]] inline double principal_frequency(double points) { return std::sqrt(2 / std::numbers::sqrt3 * points); }
 
-/// The power spectrum of point sets of one kind, P(f) = |Σ exp(−2πi f·x)|² / N at integer frequencies f, the mean
-/// of the sets' periodograms.
+/// The power spectrum of point sets of one kind: the mean of the sets' periodograms P(f) = |Σ exp(−2πi f·x)|² / N
+/// at integer frequencies f.
 ///
-/// One set's periodogram does not settle with more points: where the points are random it has at each frequency an
-/// exponential distribution, whose standard deviation is its mean, so its anisotropy is 0 dB. M sets lower that to
+/// More points do not make the periodogram of one set less noisy: for random points its value at each frequency has an
+/// exponential distribution, whose standard deviation equals its mean, so its anisotropy is 0 dB. M sets lower that to
 /// −10 log10 M dB: with Ulichney's ten, −10 dB means "no direction preferred".
 ///
 /// Cost: 0.3 ns per point and independent frequency on one core with SSE2 alone (g++ 12, -O3; clang 14: 0.75 ns), so
@@ -60,7 +60,7 @@ struct Annulus {
 /// Source: Ulichney 1988, "Dithering with blue noise".
 class PowerSpectrum {
 public:
-    /// @param highest  frequency to look at, cycles per side, 1 to 8192; 2 `principal_frequency` shows the first peaks
+    /// @param highest  frequency, cycles per side, 1 to 8192; twice the `principal_frequency` shows the first peaks
     explicit PowerSpectrum(std::size_t highest, SpectralWindow window = SpectralWindow::periodic)
         : highest_(highest), window_(window) {
         if (highest < 1 || highest > 8192)
@@ -76,7 +76,7 @@ public:
     /// @param executor  who runs the work; the result does not depend on it
     template <PlanePoints Points, Executor E = SerialExecutor>
     void add(const Points& points, E&& executor = E{}) {
-        std::vector<WeightedPoint> weighted;
+        std::vector<detail::WeightedPoint> weighted;
         double squares = 0;
         for (const auto& point : points) {
             weighted.push_back(weigh(static_cast<double>(point[0]), static_cast<double>(point[1]), weighted.size()));
@@ -85,20 +85,20 @@ public:
         if (!(squares > 0))
             invalid_argument("nephroid::PowerSpectrum: " + std::to_string(weighted.size()) +
                              " points that count; a spectrum needs one");
-        const auto sums = trigonometric_sums(weighted, highest_, executor);
+        const auto sums = detail::trigonometric_sums(weighted, highest_, executor);
         const auto side = static_cast<std::int64_t>(highest_) + 1;
         for (std::int64_t i = 0; i < side; ++i)
             for (std::int64_t j = 0; j < side; ++j) {
-                const TrigonometricSums& sum = sums[static_cast<std::size_t>(i * side + j)];
-                powers_[place(i, j)] += sum.square() / squares;
+                const detail::TrigonometricSums& sum = sums[static_cast<std::size_t>(i * side + j)];
+                powers_[index_of(i, j)] += sum.square() / squares;
                 if (j > 0)
-                    powers_[place(i, -j)] += sum.mirrored_square() / squares;
+                    powers_[index_of(i, -j)] += sum.mirrored_square() / squares;
             }
         ++sets_;
     }
 
     [[nodiscard]] std::size_t highest() const { return highest_; }
-    /// How many sets have been added.
+    /// The number of sets added.
     [[nodiscard]] std::size_t sets() const { return sets_; }
 
     /// The mean periodogram at a frequency within the disk |f| <= highest: for a picture of the spectrum.
@@ -106,12 +106,12 @@ public:
         const double highest = static_cast<double>(highest_);
         if (sets_ == 0 || static_cast<double>(fx * fx) + static_cast<double>(fy * fy) > highest * highest)
             return 0;
-        return powers_[fx < 0 ? place(-fx, -fy) : place(fx, fy)] / static_cast<double>(sets_);
+        return powers_[fx < 0 ? index_of(-fx, -fy) : index_of(fx, fy)] / static_cast<double>(sets_);
     }
 
-    /// The mean power of the frequencies with least <= |f| < most; NaN if there is none or no set. Without f = 0, which
-    /// is the number of points, and under a Hann window without its neighbours |f_x|, |f_y| <= 1, which hold the
-    /// window's own peak.
+    /// The mean power of the frequencies with least <= |f| < most; NaN if there is none or no set. It leaves out f = 0,
+    /// whose power is the number of points, and under a Hann window its neighbours |f_x|, |f_y| <= 1, the window's
+    /// peak.
     [[nodiscard]] double band_power(double least, double most) const {
         double sum = 0;
         std::size_t count = 0;
@@ -125,8 +125,8 @@ public:
         return count > 0 && sets_ > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
     }
 
-    /// The spectrum by radius: annuli k = 1 … highest − 1, the whole ones. Under a Hann window the first one holds
-    /// the window's own peak.
+    /// The spectrum by radius: the complete annuli, k = 1 … highest − 1. Under a Hann window the first one contains
+    /// the window's peak.
     [[nodiscard]] std::vector<Annulus> radial() const {
         std::vector<Annulus> annuli(highest_ + 1);
         for_each_independent([&](double radius, double power) {
@@ -148,10 +148,10 @@ public:
     }
 
 private:
-    /// Between √2, the radius of the last frequency of the window itself, and 2.
+    /// Between √2, the radius of the last frequency of the window's peak, and 2.
     static constexpr double window_reach = 1.5;
 
-    [[nodiscard]] WeightedPoint weigh(double x, double y, std::size_t index) const {
+    [[nodiscard]] detail::WeightedPoint weigh(double x, double y, std::size_t index) const {
         const bool inside = x >= 0 && x <= 1 && y >= 0 && y <= 1;
         if (!std::isfinite(x) || !std::isfinite(y) || (window_ == SpectralWindow::hann && !inside))
             invalid_argument("nephroid::PowerSpectrum: point " + std::to_string(index) + " is at (" +
@@ -163,13 +163,13 @@ private:
         return {x, y, sine * sine};
     }
 
-    /// Where the power at (i, j) is kept, i >= 0.
-    [[nodiscard]] std::size_t place(std::int64_t i, std::int64_t j) const {
+    /// The index of the power at (i, j), i >= 0.
+    [[nodiscard]] std::size_t index_of(std::int64_t i, std::int64_t j) const {
         const auto highest = static_cast<std::int64_t>(highest_);
         return static_cast<std::size_t>(i * (2 * highest + 1) + j + highest);
     }
 
-    /// k of the annulus, for radii that `for_each_independent` gives at most `highest`.
+    /// The annulus k of a radius; at most `highest` for the radii that `for_each_independent` gives.
     [[nodiscard]] static std::size_t annulus_of(double radius) { return static_cast<std::size_t>(radius + 0.5); }
 
     /// visit(|f|, power) for half the plane: (i, j) and (−i, −j) have the same power.

@@ -17,8 +17,8 @@ namespace nephroid {
 struct SsimOptions {
     std::size_t window = 11;  ///< side of the square Gaussian window, pixels, >= 1
     double sigma = 1.5;       ///< standard deviation of the Gaussian before it is cut off and normalised, pixels, > 0
-    double k1 = 0.01;         ///< steadies the comparison of means in the dark, > 0: C1 = (k1 dynamic_range)^2
-    double k2 = 0.03;         ///< steadies that of contrasts in flat regions, > 0: C2 = (k2 dynamic_range)^2
+    double k1 = 0.01;         ///< stabilises the comparison of dark means, > 0: C1 = (k1 dynamic_range)^2
+    double k2 = 0.03;         ///< stabilises the comparison of low contrasts, > 0: C2 = (k2 dynamic_range)^2
     double dynamic_range = 1; ///< largest minus smallest value that a pixel can have, > 0: 1 for [0, 1], 255 for bytes
 };
 
@@ -88,7 +88,7 @@ template <Pixels Image, Pixels Reference>
 
     const auto* const a = std::ranges::data(image);
     const auto* const b = std::ranges::data(reference);
-    // A variance does not see an offset but its rounding does: moments are taken about each image's mean.
+    // About each image's mean: an offset does not change a variance, but its rounding would.
     const double mean_a = detail::sum_of(image) / static_cast<double>(width * height);
     const double mean_b = detail::sum_of(reference) / static_cast<double>(width * height);
     const double c1 = options.k1 * options.dynamic_range * options.k1 * options.dynamic_range;
@@ -96,8 +96,8 @@ template <Pixels Image, Pixels Reference>
 
     const std::size_t window = options.window, columns = width - window + 1, rows = height - window + 1;
     const std::vector<double> weights = detail::ssim_weights(options);
-    std::vector<detail::SsimMoments> pixels(width); // of the newest row
-    // The last rows, filtered along x; row y is in slot y % window.
+    std::vector<detail::SsimMoments> pixels(width); // of the current row
+    // The last `window` rows, filtered along x: row y is at y % window.
     std::vector<detail::SsimMoments> filtered(window * columns);
 
     double sum = 0;

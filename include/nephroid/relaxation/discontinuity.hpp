@@ -12,11 +12,11 @@
 #include <optional>
 #include <span>
 
-namespace nephroid {
+namespace nephroid::detail {
 
-/// A place along an axis whose two sides are each as uniform as can be.
+/// The point of an axis that splits a row of photons into two sides, each as uniform as can be.
 struct Discontinuity {
-    double place;       ///< along the axis, over the radius of the disc: in [-1, 1]
+    double coordinate;  ///< along the axis, over the radius of the disc: in [-1, 1]
     double homogeneity; ///< ι: 1 both sides are alike, 0 one of them is empty
     double evidence;    ///< the logarithm of how many times better two sides explain the row than one whole does
 };
@@ -26,20 +26,18 @@ struct Discontinuity {
     return std::clamp(1 - (homogeneity - alpha) / (beta - alpha), 0.0, 1.0);
 }
 
-namespace detail {
-
-/// The mean distance between as many photons on a disc of radius 1 as this, by the paper's 2/(K + 1) √(K/π):
-/// candidates are tried so far apart.
+/// How far apart candidates for a split are tried: the paper's mean distance between this many photons on a disc of
+/// radius 1, 2/(K + 1) √(K/π).
 [[nodiscard]] inline double candidate_step(std::size_t count) {
     return 2 / (double(count) + 1) * std::sqrt(double(count) / std::numbers::pi);
 }
 
-/// The sums from which the mean and the weighted spread of one side's gaps follow [eq. 5 and 6].
+/// The sums from which the mean and the weighted deviation of one side's gaps follow [eq. 5 and 6].
 struct Gaps {
     double count = 0, sum = 0, weight = 0, weighted = 0, weighted2 = 0;
 
-    void add(double gap, double place) {
-        const double w = (std::max)(0.0, 1 - place * place);
+    void add(double gap, double coordinate) {
+        const double w = (std::max)(0.0, 1 - coordinate * coordinate);
         count += 1, sum += gap, weight += w, weighted += w * gap, weighted2 += w * gap * gap;
     }
     [[nodiscard]] Gaps without(const Gaps& other) const {
@@ -47,7 +45,7 @@ struct Gaps {
                 weighted2 - other.weighted2};
     }
     [[nodiscard]] double mean() const { return sum / count; }
-    /// σ over the mean; 0 where all gaps are
+    /// σ over the mean; 0 where all gaps are 0.
     [[nodiscard]] double variation() const {
         const double m = mean();
         const double sum2 = weighted2 - 2 * m * weighted + m * m * weight;
@@ -55,7 +53,7 @@ struct Gaps {
     }
 };
 
-/// The share of a disc of radius 1 that lies left of x.
+/// The fraction of a disc of radius 1 that lies left of x.
 [[nodiscard]] inline double disc_left_of(double x) {
     return (std::acos(-x) + x * std::sqrt((std::max)(0.0, 1 - x * x))) / std::numbers::pi;
 }
@@ -63,36 +61,35 @@ struct Gaps {
 /// x log(x/y), 0 for x = 0
 [[nodiscard]] inline double relative_entropy(double x, double y) { return x > 0 ? x * std::log(x / y) : 0; }
 
-} // namespace detail
-
-/// The photon that splits a row into two of least spread, of candidates at the mean distance of photons [eq. 4 to 7].
+/// Splits a row at the photon whose two sides' gaps vary least, among candidates one mean distance apart [eq. 4 to 7].
 ///
-/// @param places  ψ over the radius of the disc, ascending, in [-1, 1]; the ends of the row, ±1, are not among them
-/// @return  the two sides' gaps include the one up to the photon and the one from it, so that neither is empty;
-///          `evidence` is not asked for and infinite. Nothing for an empty row.
+/// @param coordinates  ψ over the radius of the disc, ascending, in [-1, 1]; the ends of the row, ±1, are not among
+///                     them
+/// @return  each side's gaps include the one that ends at the photon, so that neither is empty; `evidence` is infinite,
+///          as this criterion has none. Nothing for an empty row.
 template <Scalar T>
-[[nodiscard]] std::optional<Discontinuity> least_spread(std::span<const T> places) {
+[[nodiscard]] std::optional<Discontinuity> least_gap_variation(std::span<const T> coordinates) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    detail::Gaps all;
+    Gaps all;
     double before = -1;
-    for (const T& place : places) {
-        all.add(double(place) - before, double(place));
-        before = double(place);
+    for (const T& coordinate : coordinates) {
+        all.add(double(coordinate) - before, double(coordinate));
+        before = double(coordinate);
     }
     all.add(1 - before, 1);
 
-    const double step = detail::candidate_step(places.size());
+    const double step = candidate_step(coordinates.size());
     std::optional<Discontinuity> best;
     double least = infinity, next = -1 + step;
-    detail::Gaps left;
+    Gaps left;
     before = -1;
-    for (const T& place : places) {
-        left.add(double(place) - before, double(place));
-        before = double(place);
+    for (const T& coordinate : coordinates) {
+        left.add(double(coordinate) - before, double(coordinate));
+        before = double(coordinate);
         if (before < next)
             continue;
         next = before + step;
-        const detail::Gaps right = all.without(left);
+        const Gaps right = all.without(left);
         const double chi = left.variation() + right.variation();
         if (chi < least) {
             const double low = (std::min)(left.mean(), right.mean()), high = (std::max)(left.mean(), right.mean());
@@ -103,46 +100,48 @@ template <Scalar T>
     return best;
 }
 
-/// The split of a row into two densities that explains the photons best: the largest likelihood of k of n photons on
-/// the left of a line, whose share of the disc's area is u, against n u of them. The homogeneity is the ratio of the
-/// two densities. Unlike eq. 4 it knows that lines across a disc are shorter towards its rim, and how many photons
-/// speak.
+/// Splits a row into the two densities that explain the photons best: the largest likelihood that k of n photons lie
+/// left of a line whose fraction u of the disc's area lies left. The homogeneity is the ratio of the two densities.
+/// Unlike eq. 4 it knows that chords of a disc are shorter towards its rim, and how many photons there are.
 ///
-/// @param places  as for `least_spread`
+/// @param coordinates  as for `least_gap_variation`
 template <Scalar T>
-[[nodiscard]] std::optional<Discontinuity> most_likely(std::span<const T> places) {
-    const double n = double(places.size()), step = detail::candidate_step(places.size());
+[[nodiscard]] std::optional<Discontinuity> most_likely(std::span<const T> coordinates) {
+    const double n = double(coordinates.size()), step = candidate_step(coordinates.size());
     std::optional<Discontinuity> best;
     std::size_t best_photon = 0;
     const auto consider = [&](std::size_t photon) {
-        const double u = detail::disc_left_of(double(places[photon]));
+        const double u = disc_left_of(double(coordinates[photon]));
         if (!(u > 0 && u < 1))
             return;
-        for (const double k : {double(photon), double(photon) + 1}) { // the line passes before or behind the photon
-            const double evidence = detail::relative_entropy(k, n * u) + detail::relative_entropy(n - k, n * (1 - u));
+        for (unsigned passed = 0; passed < 2; ++passed) { // the line passes before the photon, then behind it
+            const double k = double(photon + passed);
+            const double evidence = relative_entropy(k, n * u) + relative_entropy(n - k, n * (1 - u));
             if (best && evidence <= best->evidence)
                 continue;
             const double left = k / u, right = (n - k) / (1 - u);
-            best = Discontinuity{double(places[photon]), (std::min)(left, right) / (std::max)(left, right), evidence};
+            best =
+                Discontinuity{double(coordinates[photon]), (std::min)(left, right) / (std::max)(left, right), evidence};
             best_photon = photon;
         }
     };
     double next = -1;
-    for (std::size_t photon = 0; photon < places.size(); ++photon)
-        if (double(places[photon]) >= next) {
+    for (std::size_t photon = 0; photon < coordinates.size(); ++photon)
+        if (double(coordinates[photon]) >= next) {
             consider(photon);
-            next = double(places[photon]) + step;
+            next = double(coordinates[photon]) + step;
         }
     if (!best)
         return best;
-    // Then every photon about the best candidate.
-    const double place = best->place;
+    // Then every photon near the best candidate.
+    const double middle = best->coordinate;
     std::size_t first = best_photon;
-    while (first > 0 && double(places[first - 1]) > place - step)
+    while (first > 0 && double(coordinates[first - 1]) > middle - step)
         --first;
-    for (std::size_t photon = first; photon < places.size() && double(places[photon]) < place + step; ++photon)
+    for (std::size_t photon = first; photon < coordinates.size() && double(coordinates[photon]) < middle + step;
+         ++photon)
         consider(photon);
     return best;
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

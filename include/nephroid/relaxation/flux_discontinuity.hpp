@@ -8,9 +8,7 @@
 
 #include <span>
 
-namespace nephroid {
-
-namespace detail {
+namespace nephroid::detail {
 
 /// The inner product of two fluxes, the mean over the bands: all that is known of a flux type is that it multiplies
 /// band by band and has a power.
@@ -26,13 +24,13 @@ template <Flux F>
     return larger > 0 ? (std::max)(0.0, 1 - std::sqrt((std::max)(0.0, aa + bb - 2 * ab) / larger)) : 1;
 }
 
-/// Symmetric to the bit.
+/// The homogeneity of two photons' fluxes; the same bits with the two exchanged.
 template <Flux F>
 [[nodiscard]] double flux_homogeneity(const F& a, const F& b) {
     return homogeneity_of(inner_product(a, a), inner_product(a, b), inner_product(b, b));
 }
 
-/// The mean and the spread of the flux of some photons.
+/// The sums from which the mean and the variance of some photons' flux follow.
 template <Flux F>
 struct FluxSums {
     double count = 0, squares = 0;
@@ -44,28 +42,31 @@ struct FluxSums {
         squares += inner_product(flux, flux);
     }
     /// Σ |Φ − mean|²
-    [[nodiscard]] double spread() const { return (std::max)(0.0, squares - inner_product(sum, sum) / count); }
+    [[nodiscard]] double squared_deviations() const {
+        return (std::max)(0.0, squares - inner_product(sum, sum) / count);
+    }
 };
 
-} // namespace detail
-
-/// The split of a row of photons into two fluxes, each alike in itself: the least sum of squared differences from the
-/// two means, over all bands. The homogeneity is 1 − |m_1 − m_2|/max |m|, for one band the ratio of the two means
-/// as in eq. 7; colours without a band in common are as different as bright and dark. The evidence is the logarithm of
-/// the likelihood ratio of normal distributions about one and two means, n/2 log(S/(S_1 + S_2)).
+/// Splits a row of photons into two sides of even flux: the least sum of squared deviations from the two means, over
+/// all bands.
 ///
-/// @param fluxes  in the order of the photons' places
-/// @param places  ascending, over the radius of the disc
+/// The homogeneity is 1 − |m_1 − m_2|/max |m|, for one band the ratio of the two means as in eq. 7; colours without
+/// a band in common differ as much as bright and dark. The evidence is the logarithm of the likelihood ratio of normal
+/// distributions about one and two means, n/2 log(S/(S_1 + S_2)).
+///
+/// @param coordinates  ascending, over the radius of the disc
+/// @param fluxes       in the same order
 /// @return  nothing for fewer than 16 photons (8 on each side), or if fluxes differ by rounding alone
 template <class T, Flux F>
-[[nodiscard]] std::optional<Discontinuity> flux_discontinuity(std::span<const T> places, std::span<const F> fluxes) {
+[[nodiscard]] std::optional<Discontinuity> flux_discontinuity(std::span<const T> coordinates,
+                                                              std::span<const F> fluxes) {
     constexpr std::size_t fewest = 8; // photons of a side: the mean of fewer says little
     constexpr double rounding = 1e-5; // of |Φ|², in sums over some hundred photons in single precision
-    detail::FluxSums<F> all, left;
+    FluxSums<F> all, left;
     for (const F& flux : fluxes)
         all.add(flux);
     const double nothing = rounding * all.squares;
-    if (fluxes.size() < 2 * fewest || !(all.spread() > nothing))
+    if (fluxes.size() < 2 * fewest || !(all.squared_deviations() > nothing))
         return std::nullopt;
 
     std::optional<Discontinuity> best;
@@ -75,19 +76,19 @@ template <class T, Flux F>
             continue;
         // A flux type need not subtract: the inner products of what is on the right follow from those of the sums.
         const double n_left = left.count, n_right = all.count - n_left;
-        const double left2 = detail::inner_product(left.sum, left.sum);
-        const double left_all = detail::inner_product(left.sum, all.sum);
-        const double all2 = detail::inner_product(all.sum, all.sum);
+        const double left2 = inner_product(left.sum, left.sum);
+        const double left_all = inner_product(left.sum, all.sum);
+        const double all2 = inner_product(all.sum, all.sum);
         const double right2 = (std::max)(0.0, all2 - 2 * left_all + left2);
         const double within = (std::max)(nothing, all.squares - left2 / n_left - right2 / n_right);
-        const double evidence = 0.5 * all.count * std::log((std::max)(all.spread(), nothing) / within);
+        const double evidence = 0.5 * all.count * std::log((std::max)(all.squared_deviations(), nothing) / within);
         if (best && evidence <= best->evidence)
             continue;
-        const double homogeneity = detail::homogeneity_of(
-            left2 / square(n_left), (left_all - left2) / (n_left * n_right), right2 / square(n_right));
-        best = Discontinuity{0.5 * (double(places[i]) + double(places[i + 1])), homogeneity, evidence};
+        const double homogeneity =
+            homogeneity_of(left2 / square(n_left), (left_all - left2) / (n_left * n_right), right2 / square(n_right));
+        best = Discontinuity{0.5 * (double(coordinates[i]) + double(coordinates[i + 1])), homogeneity, evidence};
     }
     return best;
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

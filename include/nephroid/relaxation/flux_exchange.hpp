@@ -5,22 +5,22 @@
 #include "nephroid/relaxation/flux_discontinuity.hpp"
 #include "nephroid/relaxation/options.hpp"
 #include "nephroid/relaxation/photon_cloud.hpp"
-#include "nephroid/relaxation/repulsion.hpp"
+#include "nephroid/relaxation/photon_constraint.hpp"
 
 #include <span>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
-/// How much of the flux between two photons passes the constraint of one of them [the second factor of eq. 13]: all of
-/// it along the feature or without one, none across.
+/// The fraction of the flux between two photons that the constraint of one of them lets pass [the second factor of
+/// eq. 13]: all of it along the feature or without one, none across.
 ///
 /// @param offset    from one to the other, either way
 /// @param distance  its length, > 0
 template <Vector3 V>
 [[nodiscard]] scalar_t<V> permeability(const PhotonConstraint<V>& constraint, const V& offset, scalar_t<V> distance) {
     using T = scalar_t<V>;
-    // The paper's offset is taken for a direction: with a length the weight would depend on the unit.
+    // Normalised, unlike the paper's offset: else the weight would depend on the unit of length.
     const T along = abs(dot(constraint.direction, offset)) / distance;
     return constraint.weight * along + (T(1) - constraint.weight);
 }
@@ -35,24 +35,24 @@ public:
 
     FluxExchange(const Cloud& cloud, const RelaxationOptions& options)
         : neighbours_(options.neighbours), alpha_(options.alpha), beta_(options.beta),
-          partners_(neighbours_ * cloud.tree().slots(), nobody), next_(cloud.fluxes()) {}
+          partners_(neighbours_ * cloud.tree().slots(), no_photon), next_(cloud.fluxes()) {}
 
-    /// Notes whom a photon may exchange flux with. May be called for several photons at the same time.
+    /// Sets the photons that one exchanges flux with. Several threads may do so for different photons.
     ///
-    /// @param found  its nearest, nearest first; the last one tells how far the others may be off, and is not a partner
-    void note(std::size_t slot, std::span<const Neighbour<T>> found) {
+    /// @param found  its nearest neighbours, nearest first; the last one ends the kernel, and is no partner
+    void set_partners(std::size_t slot, std::span<const Neighbour<T>> found) {
         for (std::size_t k = 0; k < neighbours_; ++k)
-            partners_[slot * neighbours_ + k] = k + 1 < found.size() ? found[k].slot : nobody;
+            partners_[slot * neighbours_ + k] = k + 1 < found.size() ? found[k].slot : no_photon;
     }
 
     /// Replaces all fluxes.
     ///
     /// @param constraints  by slot, or empty
-    /// @param radius       by slot: the distance to the last one of `found`
+    /// @param radius       by slot: the distance to the last of the photons given to `set_partners`
     template <class E>
     void run(Cloud& cloud, std::span<const PhotonConstraint<V>> constraints, std::span<const T> radius,
              FluxDiffusion method, E& executor) {
-        detail::for_each_slot(cloud.tree(), executor, [&](std::size_t slot) {
+        for_each_slot(cloud.tree(), executor, [&](std::size_t slot) {
             next_[slot] = method == FluxDiffusion::conserving ? exchanged(cloud, constraints, radius, slot)
                                                               : weighted_mean(cloud, constraints, radius, slot);
         });
@@ -60,17 +60,17 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t nobody = (std::numeric_limits<std::uint32_t>::max)();
+    static constexpr std::uint32_t no_photon = (std::numeric_limits<std::uint32_t>::max)();
 
     [[nodiscard]] std::span<const std::uint32_t> partners(std::size_t slot) const {
         return {partners_.data() + slot * neighbours_, neighbours_};
     }
 
-    /// What both constraints let pass. The weights of eq. 13 leave half of what crosses an edge obliquely: at
-    /// features, fluxes exchange the less the more they differ, by the same measure as two sides of a feature [eq. 8],
-    /// which changes nothing along edges of density alone.
-    [[nodiscard]] T passes_both(const Cloud& cloud, std::span<const PhotonConstraint<V>> constraints, std::size_t slot,
-                                std::size_t other, const V& offset, T distance) const {
+    /// The fraction that both constraints let pass. The weights of eq. 13 let half of the flux cross an edge obliquely.
+    /// At features, therefore, photons exchange less the more their fluxes differ, by the same measure as two sides of
+    /// a feature [eq. 8], which changes nothing along edges of density alone.
+    [[nodiscard]] T mutual_permeability(const Cloud& cloud, std::span<const PhotonConstraint<V>> constraints,
+                                        std::size_t slot, std::size_t other, const V& offset, T distance) const {
         if (constraints.empty())
             return T(1);
         const T held = (std::max)(constraints[slot].weight, constraints[other].weight);
@@ -78,7 +78,7 @@ private:
             return T(1);
         const T through = (std::min)(permeability(constraints[slot], offset, distance),
                                      permeability(constraints[other], offset, distance));
-        const double homogeneity = detail::flux_homogeneity(cloud.flux(slot), cloud.flux(other));
+        const double homogeneity = flux_homogeneity(cloud.flux(slot), cloud.flux(other));
         return through * (T(1) - held * T(constraint_weight(homogeneity, alpha_, beta_)));
     }
 
@@ -88,7 +88,7 @@ private:
         F sum = cloud.flux(slot);
         T weights(1);
         for (const std::uint32_t other : partners(slot)) {
-            if (other == nobody)
+            if (other == no_photon)
                 break;
             const V offset = cloud.position(slot) - cloud.position(other);
             const T distance = length(offset);
@@ -102,32 +102,32 @@ private:
         return static_cast<F>(sum * (T(1) / weights));
     }
 
-    /// A photon's flux after it gave each partner a share of the difference and got the same from it. Both of a pair
-    /// reckon with the same share: its kernel ends at the smaller of the two radii, within which each is a partner of
-    /// the other, and what passes is the same seen from both. With shares of at most 1/(K + 1) no flux overshoots.
+    /// A photon's flux after it gave each partner a fraction of the difference and got the same from it. Both photons
+    /// of a pair use the same fraction: the kernel ends at the smaller of their two radii, within which each is a
+    /// partner of the other, and the permeability is symmetric. With fractions of at most 1/(K + 1) no flux overshoots.
     [[nodiscard]] F exchanged(const Cloud& cloud, std::span<const PhotonConstraint<V>> constraints,
                               std::span<const T> radius, std::size_t slot) const {
         F flux = cloud.flux(slot);
         for (const std::uint32_t other : partners(slot)) {
-            if (other == nobody)
+            if (other == no_photon)
                 break;
             const T reach = (std::min)(radius[slot], radius[other]);
             const V offset = cloud.position(slot) - cloud.position(other);
             const T distance = length(offset);
             if (!(distance > T(0) && distance < reach))
                 continue;
-            const T through = passes_both(cloud, constraints, slot, other, offset, distance);
-            const T share = (T(1) - square(distance / reach)) * through / T(neighbours_ + 1);
-            flux = flux + static_cast<F>(static_cast<F>(cloud.flux(other) * share) +
-                                         static_cast<F>(cloud.flux(slot) * -share));
+            const T through = mutual_permeability(cloud, constraints, slot, other, offset, distance);
+            const T fraction = (T(1) - square(distance / reach)) * through / T(neighbours_ + 1);
+            flux = flux + static_cast<F>(static_cast<F>(cloud.flux(other) * fraction) +
+                                         static_cast<F>(cloud.flux(slot) * -fraction));
         }
         return flux;
     }
 
     std::size_t neighbours_;
     double alpha_, beta_;                 ///< of eq. 8
-    std::vector<std::uint32_t> partners_; // by slot, so many for each
+    std::vector<std::uint32_t> partners_; // by slot, `neighbours_` for each
     std::vector<F> next_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

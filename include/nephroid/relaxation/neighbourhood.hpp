@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file  The nearest neighbours of every photon, a leaf of photons at a time.
 ///
-/// The photons of a leaf look for much the same neighbours. What lies around the leaf is gathered once into arrays
-/// that a compiler vectorises over, as far out as the neighbourhoods reached before; each photon then only compares
-/// distances.
+/// The photons of a leaf have much the same neighbours. All photons around the leaf, as far out as its photons'
+/// neighbourhoods reached before, are gathered once into arrays that a compiler vectorises over; each photon then only
+/// compares distances.
 #pragma once
 
 #include "nephroid/relaxation/photon_cloud.hpp"
@@ -11,11 +11,27 @@
 #include <algorithm>
 #include <span>
 
-namespace nephroid {
+namespace nephroid::detail {
 
-/// A photon's neighbours on its own surface are looked for among at most this many times as many of any surface: where
-/// more photons of others lie between them, it has fewer, and the search an end.
-inline constexpr std::size_t neighbour_crowd = 128;
+/// A search for n neighbours on a photon's own surface ends at this many times n photons of any surface: where more
+/// photons of other surfaces lie between, it finds fewer.
+inline constexpr std::size_t most_candidates = 128;
+
+/// Guesses how far `wanted` neighbours of each photon in a leaf reach, before any search: as if the leaf's photons
+/// filled the two longer sides of its box.
+template <class Tree, Scalar T>
+void guess_reach(const Tree& tree, const TreeLeaf& leaf, std::size_t wanted, std::vector<T>& reach) {
+    std::array<T, 3> side;
+    const T* const coordinates[3] = {tree.x(), tree.y(), tree.z()};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const T* const first = coordinates[axis] + leaf.first;
+        const auto [low, high] = std::minmax_element(first, first + leaf.size);
+        side[axis] = *high - *low;
+    }
+    std::sort(side.begin(), side.end());
+    const T area = side[2] * (std::max)(side[1], side[2] / T(leaf.size));
+    std::fill_n(reach.begin() + leaf.first, leaf.size, sqrt(T(wanted) * area / (pi<T> * T(leaf.size))));
+}
 
 template <class Cloud>
 class Neighbourhood {
@@ -23,12 +39,12 @@ public:
     using V = typename Cloud::vector;
     using T = scalar_t<V>;
 
-    /// Calls visit(slot, neighbours) for each photon of a leaf with those nearest to it on its surface, itself left
-    /// out, nearest first: `count` of them, or fewer where they are not among its `neighbour_crowd` · count nearest of
-    /// all.
+    /// Calls visit(slot, neighbours) for each photon of a leaf with the photons nearest to it on its surface, without
+    /// itself, nearest first: `count` of them, or fewer where they are not among its `most_candidates` · count nearest
+    /// of any surface.
     ///
-    /// @param radius  by slot: a guess of the distance to the last of them; what is found does not depend on it but for
-    ///                the order of photons at the same distance
+    /// @param radius  by slot: a guess of the distance to the last neighbour; nothing but the order of photons at the
+    ///                same distance depends on it
     template <class Visit>
     void for_each(const Cloud& cloud, std::uint32_t leaf, std::size_t count, std::span<const T> radius, Visit&& visit) {
         const TreeLeaf range = cloud.tree().leaves()[leaf];
@@ -44,10 +60,10 @@ public:
     }
 
 private:
-    /// Photons move between two searches, and their neighbourhoods grow by a little.
+    /// Photons move between two searches, and their neighbourhoods grow a little.
     static constexpr T slack = T(1.15);
 
-    /// As far as most photons of the leaf look: one that is by itself is not to make all others look as far.
+    /// How far most photons of the leaf look: a lone one does not make all others look as far.
     [[nodiscard]] static T reach_of(const TreeLeaf& range, std::span<const T> radius) {
         T most(0), sum(0);
         for (std::size_t slot = range.first; slot < range.first + range.size; ++slot) {
@@ -68,7 +84,7 @@ private:
             box.low[axis] = *low - reach, box.high[axis] = *high + reach;
         }
         size_ = 0;
-        // Photons in one place have neighbours enough, and those of other leaves in that place are no nearer.
+        // Photons that coincide have neighbours enough, and those of other leaves are no nearer.
         if (box.low == box.high && range.size > count)
             return append(tree, range, box);
         tree.visit_leaves(box, [&](std::uint32_t leaf) { append(tree, tree.leaves()[leaf], box); });
@@ -79,7 +95,7 @@ private:
             resize(2 * size_ + PointTree<V>::leaf_size);
         std::size_t size = size_;
         for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot) {
-            // Written whether it counts or not: cheaper than a branch that goes either way.
+            // Written whether it lies in the box or not: cheaper than a branch.
             const T x = tree.x()[slot], y = tree.y()[slot], z = tree.z()[slot];
             x_[size] = x, y_[size] = y, z_[size] = z, slots_[size] = std::uint32_t(slot);
             size += std::size_t(int(x >= box.low[0]) & int(x <= box.high[0]) & int(y >= box.low[1]) &
@@ -89,13 +105,16 @@ private:
     }
 
     void resize(std::size_t size) {
-        for (auto* const coordinate : {&x_, &y_, &z_, &distance2_})
-            coordinate->resize(size);
+        x_.resize(size);
+        y_.resize(size);
+        z_.resize(size);
+        distance2_.resize(size);
         slots_.resize(size);
         hits_.resize(size);
     }
 
-    /// Whether all `count` neighbours lie within a radius, which is no more than what was gathered for.
+    /// Finds the neighbours among the gathered photons within a radius, at most the one gathered for.
+    /// @return whether all `count` lie there
     [[nodiscard]] bool find(const Cloud& cloud, std::size_t slot, std::size_t count, T radius) {
         const T px = cloud.tree().x()[slot], py = cloud.tree().y()[slot], pz = cloud.tree().z()[slot];
         const T radius2 = radius * radius;
@@ -116,15 +135,15 @@ private:
         return found_.size() == count;
     }
 
-    /// For photons that lie by themselves, by a search of their own.
+    /// For lone photons: a search in the tree.
     void find_farther(const Cloud& cloud, std::size_t slot, std::size_t count) {
-        for (std::size_t crowd = 2; crowd <= neighbour_crowd; crowd *= 4) {
-            crowd_.resize(crowd * count + 1);
-            const std::size_t size = cloud.tree().nearest(cloud.position(slot), crowd_);
+        for (std::size_t times = 2; times <= most_candidates; times *= 4) {
+            candidates_.resize(times * count + 1);
+            const std::size_t size = cloud.tree().nearest(cloud.position(slot), candidates_);
             found_.clear();
             for (std::size_t i = 0; i < size; ++i)
-                insert(cloud, slot, count, crowd_[i]);
-            if (found_.size() == count || size < crowd_.size())
+                insert(cloud, slot, count, candidates_[i]);
+            if (found_.size() == count || size < candidates_.size())
                 return;
         }
     }
@@ -145,7 +164,7 @@ private:
     std::size_t size_ = 0;
     std::vector<T> x_, y_, z_, distance2_;
     std::vector<std::uint32_t> slots_, hits_;
-    std::vector<Neighbour<T>> found_, crowd_;
+    std::vector<Neighbour<T>> found_, candidates_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

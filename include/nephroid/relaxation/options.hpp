@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What photon relaxation is told, and what it tells afterwards.
+/// @file  The options of photon relaxation, and the report of what it did.
 #pragma once
 
 #include "nephroid/vector/error.hpp"
@@ -15,62 +15,62 @@ namespace nephroid {
 enum class FluxDiffusion {
     none,
     conserving,   ///< pairs of photons exchange flux: the total is kept to rounding
-    weighted_mean ///< [Spencer and Jones 2009, eq. 12]: does not keep the total, which 20 steps over 2,000 random
-                  ///< photons with fluxes of 0 to 2 change by 0.7 to 0.9%
+    weighted_mean ///< [Spencer and Jones 2009, eq. 12]: changes the total, by 0.7 to 0.9% in 20 steps over 2,000
+                  ///< random photons with fluxes of 0 to 2
 };
 
-/// How the place of a feature is chosen among candidates.
+/// How the position of a feature is chosen among candidates.
 enum class FeatureCriterion {
-    likelihood, ///< where two densities explain the photons best [ours: fewer false features, sharper edges]
-    spread      ///< where the spread of the gaps on both sides is least [Spencer and Jones 2009, eq. 4]
+    likelihood,   ///< where two densities explain the photons best [ours: fewer false features, sharper edges]
+    gap_variation ///< where the gaps between photons vary least on both sides [Spencer and Jones 2009, eq. 4]
 };
 
-/// Photon relaxation [Spencer and Jones 2009]. The defaults are the paper's unless it is said otherwise.
+/// Options of photon relaxation [Spencer and Jones 2009]. The defaults are the paper's where nothing else is said.
 struct RelaxationOptions {
     unsigned iterations = 20;      ///< 20 for photons of a low-discrepancy sequence, 30 to 50 for random ones
-    unsigned neighbours = 6;       ///< K of eq. 1: how many push a photon, 1 to 32
-    double over_relaxation = 2.0;  ///< λ_max of eq. 2, at the first iteration; > 0
-    double final_relaxation = 1.2; ///< λ_min of eq. 2, approached towards the last; > 0
-    /// How much of its force a photon follows at the last iteration, coming down from 1 at the first; in (0, 1]. In
-    /// the paper it is 1 throughout, and photons move one after another. Photons that all move at once then overshoot
-    /// for ever: low frequencies stay at -9.7 dB after 50 iterations, where the paper's order comes to -18.1 (a torus
-    /// of 2,000 photons); with 0.4 they come to -18.5.
+    unsigned neighbours = 6;       ///< K of eq. 1: how many photons push one, 1 to 32
+    double over_relaxation = 2.0;  ///< λ_max of eq. 2, at the first iteration; above 0, at most 16
+    double final_relaxation = 1.2; ///< λ_min of eq. 2, approached towards the last; above 0, at most 16
+    /// The fraction of its force that a photon follows at the last iteration, falling from 1 at the first; in (0, 1].
+    /// In the paper it is 1 throughout, and photons move one after another. Photons that all move at once then
+    /// overshoot for ever: low frequencies stay at -9.7 dB after 50 iterations, where the paper's order comes to -18.1
+    /// (a torus of 2,000 photons); with 0.4 they come to -18.5.
     double final_step = 0.4;
 
-    /// How many nearest photons the target of a photon's density is estimated from, 16 to 4096; 0 for none, as in the
-    /// paper: all photons then aim at the same distance from each other, which evens out a caustic with its noise.
-    /// See `keeping_density`.
+    /// How many nearest photons give the density that a photon aims at, 16 to 4096. 0 for none, as in the paper: all
+    /// photons then aim at the same distance from each other, which evens out a caustic with its noise. See
+    /// `keeping_density`.
     unsigned pilot_neighbours = 0;
 
-    bool constrain = true;             ///< find features and let photons move along them only
+    bool constrain = true;             ///< find features, and let photons move along them only
     unsigned feature_neighbours = 150; ///< K of the feature search, 16 to 4096
     /// α and β of eq. 8: a photon is held fully where the densities of the two sides of a feature have a ratio of at
     /// most α, and not at all from β on; 0 <= α < β <= 1. The paper: α = 0 for soft caustics, 0.1 to 0.2 for sharp
     /// ones.
     double alpha = 0.2, beta = 0.35;
     FeatureCriterion criterion = FeatureCriterion::likelihood;
-    /// The least logarithm of how many times better two densities or fluxes must explain a neighbourhood's photons than
-    /// one does; >= 0. For `spread` of features of flux alone.
+    /// The logarithm of how many times better two densities or fluxes must explain a neighbourhood's photons than one
+    /// does, at least; >= 0. With `gap_variation` for features of flux alone.
     double evidence = 8;
-    /// Features are also looked for in the flux of photons, its intensity and its colour.
+    /// Whether features are also searched for in the photons' flux, its intensity and its colour.
     bool flux_features = true;
 
-    /// ρ of eq. 11: moves of this many radii (of the disc of K + 1 neighbours) are halved, longer ones damped; 0
-    /// leaves them as they are.
+    /// ρ of eq. 11: moves of this many radii (of the disc of K + 1 neighbours) are halved, longer ones damped more; 0
+    /// damps none.
     double rho = 0.3;
     FluxDiffusion flux_diffusion = FluxDiffusion::none; ///< eq. 12 and 13, once per iteration
 
-    /// Photons whose normals differ by more than the angle of this cosine lie on different surfaces, and have nothing
-    /// to do with each other; [-1, 1].
+    /// Photons whose normals have a smaller cosine between them lie on different surfaces, and ignore each other;
+    /// [-1, 1].
     double cos_same_surface = 0.5;
-    /// A photon stays within this many radii (of the disc of K + 1 neighbours that it had first) from where it was: the
-    /// border of a map, beyond which nothing holds a photon, cannot drift off for ever. Inside, one in
-    /// 5,000 random photons would go farther in 50 iterations. > 0; ours.
+    /// A photon stays within this many radii (of its first disc of K + 1 neighbours) of where it was, so that photons
+    /// at the border of a map, which nothing holds from outside, do not drift away. Inside, one in 5,000 random photons
+    /// would go farther in 50 iterations. > 0; ours.
     double leash = 2;
 
-    /// Ours, for the least error of a map that is looked at with 20 neighbours: photons aim at the densities that the
-    /// map had, and are pushed by 12 neighbours without over-relaxation, whose cells show at such bandwidths. Look at
-    /// it with a kernel that fades smoothly (`BiweightKernel`).
+    /// Ours, for the least error of estimates from 20 neighbours: photons aim at the densities that the map had, and 12
+    /// neighbours push each without over-relaxation, whose cells would show at such bandwidths. Estimate with a kernel
+    /// that fades smoothly (`BiweightKernel`).
     [[nodiscard]] static RelaxationOptions keeping_density() {
         RelaxationOptions options;
         options.neighbours = 12;
@@ -83,14 +83,14 @@ struct RelaxationOptions {
 /// What `relax` did.
 struct RelaxationReport {
     std::size_t photons = 0;
-    unsigned iterations = 0;             ///< done; fewer than asked for if the caller's `progress` said to stop
-    std::size_t feature_searches = 0;    ///< neighbourhoods of `feature_neighbours` that were looked through
+    unsigned iterations = 0;             ///< done; fewer than asked for if the caller's `progress` returned false
+    std::size_t feature_searches = 0;    ///< neighbourhoods of `feature_neighbours` that were searched
     std::size_t constrained_photons = 0; ///< photons with a weight above 0
     std::vector<double> mean_step;       ///< per iteration: a photon's move over the radius of its neighbourhood
 };
 
 namespace detail {
-/// Complains about options outside the ranges given above.
+/// Refuses options outside the ranges given above.
 inline void check(const RelaxationOptions& options, const char* who) {
     const auto require = [&](bool fine, const char* name, double value, const char* range) {
         if (!fine)
@@ -98,19 +98,25 @@ inline void check(const RelaxationOptions& options, const char* who) {
     };
     const RelaxationOptions& o = options;
     require(o.neighbours >= 1 && o.neighbours <= 32, "neighbours", o.neighbours, "1 to 32");
-    require(o.over_relaxation > 0 && isfinite(o.over_relaxation), "over_relaxation", o.over_relaxation,
-            "positive and finite");
-    require(o.final_relaxation > 0 && isfinite(o.final_relaxation), "final_relaxation", o.final_relaxation,
-            "positive and finite");
+    // Beyond a few radii the leash stops every move: a larger number is a mistake.
+    require(o.over_relaxation > 0 && o.over_relaxation <= 16, "over_relaxation", o.over_relaxation,
+            "above 0 and at most 16");
+    require(o.final_relaxation > 0 && o.final_relaxation <= 16, "final_relaxation", o.final_relaxation,
+            "above 0 and at most 16");
     require(o.final_step > 0 && o.final_step <= 1, "final_step", o.final_step, "above 0 and at most 1");
     require(o.pilot_neighbours == 0 || (o.pilot_neighbours >= 16 && o.pilot_neighbours <= 4096), "pilot_neighbours",
             o.pilot_neighbours, "0 or 16 to 4096");
     require(o.feature_neighbours >= 16 && o.feature_neighbours <= 4096, "feature_neighbours", o.feature_neighbours,
             "16 to 4096");
+    require(o.beta > 0 && o.beta <= 1, "beta", o.beta, "above 0 and at most 1");
     require(o.alpha >= 0 && o.alpha < o.beta, "alpha", o.alpha, "at least 0 and below beta");
-    require(o.beta <= 1, "beta", o.beta, "at most 1");
+    require(o.criterion == FeatureCriterion::likelihood || o.criterion == FeatureCriterion::gap_variation, "criterion",
+            double(o.criterion), "a FeatureCriterion");
     require(o.evidence >= 0 && isfinite(o.evidence), "evidence", o.evidence, "0 or positive, and finite");
     require(o.rho >= 0 && isfinite(o.rho), "rho", o.rho, "0 or positive, and finite");
+    require(o.flux_diffusion == FluxDiffusion::none || o.flux_diffusion == FluxDiffusion::conserving ||
+                o.flux_diffusion == FluxDiffusion::weighted_mean,
+            "flux_diffusion", double(o.flux_diffusion), "a FluxDiffusion");
     require(o.cos_same_surface >= -1 && o.cos_same_surface <= 1, "cos_same_surface", o.cos_same_surface, "-1 to 1");
     require(o.leash > 0 && isfinite(o.leash), "leash", o.leash, "positive and finite");
 }

@@ -11,11 +11,9 @@
 #include <string>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
-namespace detail {
-
-/// Calls task(scratch, leaf) for each leaf of a tree, a few at a time on one thread; a `Scratch` is made for these few.
+/// Calls task(scratch, leaf) for each leaf of a tree, some at a time on one thread, which share a `Scratch`.
 template <class Scratch, class Tree, class E, class Task>
 void for_each_leaf(const Tree& tree, E& executor, const Task& task) {
     constexpr std::size_t leaves_per_task = 32;
@@ -28,22 +26,20 @@ void for_each_leaf(const Tree& tree, E& executor, const Task& task) {
     });
 }
 
-struct Nothing {};
+struct NoScratch {};
 
 /// Calls task(slot) for each slot that holds a photon.
 template <class Tree, class E, class Task>
 void for_each_slot(const Tree& tree, E& executor, const Task& task) {
-    for_each_leaf<Nothing>(tree, executor, [&](Nothing, std::uint32_t leaf) {
+    for_each_leaf<NoScratch>(tree, executor, [&](NoScratch, std::uint32_t leaf) {
         const TreeLeaf range = tree.leaves()[leaf];
         for (std::size_t slot = range.first; slot < range.first + range.size; ++slot)
             task(slot);
     });
 }
 
-} // namespace detail
-
-/// Positions (the tree's own), normals and fluxes by slot. A slot is a place in the tree's leaf order; those that pad
-/// a leaf to whole lanes are never asked for.
+/// Positions (the tree's own), normals and fluxes by slot. A slot is an index into the tree's leaf order; nobody asks
+/// for the slots that pad a leaf to whole lanes.
 template <Vector3 V, Flux F>
     requires ScalesFlux<F, scalar_t<V>>
 class PhotonCloud {
@@ -52,44 +48,40 @@ public:
     using vector = V;
     using flux_type = F;
 
-    /// @param cos_same_surface  of the angle between normals from which on photons lie on different surfaces
+    /// @param cos_same_surface  photons whose normals have a smaller cosine between them lie on different surfaces
     /// @param who               the caller's name for error messages
-    /// Throws std::invalid_argument naming the photon whose position or normal is not finite or not of unit length.
+    /// Throws std::invalid_argument naming the photon whose position, normal or flux cannot be.
     template <class Photons, class Access>
     PhotonCloud(Photons& photons, const Access& access, double cos_same_surface,
                 const char* who) requires ReadsPhotons<Access, Photons>
         : tree_(
               std::size_t(std::ranges::size(photons)),
-              [&](std::size_t i) -> V { return std::invoke(access.position, detail::photon_at(photons, i)); }, who),
+              [&](std::size_t i) -> V { return std::invoke(access.position, photon_at(photons, i)); }, who),
           cos_same_surface_(T(cos_same_surface)) {
         normals_.reserve(tree_.slots());
-        for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
-            const V n = std::invoke(access.normal, detail::photon_at(photons, tree_.index(slot)));
-            if (!(abs(length2(n) - T(1)) < T(0.01)))
-                invalid_argument(std::string(who) + ": photon " + std::to_string(tree_.index(slot)) +
-                                 " has the normal " + detail::text_of(n) + "; normals must be of unit length");
-            normals_.push_back(n);
-        }
+        for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
+            normals_.push_back(std::invoke(access.normal, photon_at(photons, tree_.index(slot))));
         fluxes_.reserve(tree_.slots());
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
-            fluxes_.push_back(std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))));
+            fluxes_.push_back(std::invoke(access.flux, photon_at(photons, tree_.index(slot))));
+        for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
+            check(slot, who);
     }
 
     /// Writes positions back to the photons they came from.
     template <class Photons, class Access, class E>
         requires MovesPhotons<Access, Photons>
     void write_positions(Photons& photons, const Access& access, E& executor) const {
-        detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
-            std::invoke(access.position, detail::photon_at(photons, tree_.index(slot))) =
-                tree_.origin() + position(slot);
+        for_each_slot(tree_, executor, [&](std::size_t slot) {
+            std::invoke(access.position, photon_at(photons, tree_.index(slot))) = tree_.origin() + position(slot);
         });
     }
     /// The same for fluxes.
     template <class Photons, class Access, class E>
         requires MovesPhotons<Access, Photons>
     void write_fluxes(Photons& photons, const Access& access, E& executor) const {
-        detail::for_each_slot(tree_, executor, [&](std::size_t slot) {
-            std::invoke(access.flux, detail::photon_at(photons, tree_.index(slot))) = fluxes_[slot];
+        for_each_slot(tree_, executor, [&](std::size_t slot) {
+            std::invoke(access.flux, photon_at(photons, tree_.index(slot))) = fluxes_[slot];
         });
     }
 
@@ -109,20 +101,33 @@ public:
     }
 
 private:
+    void check(std::size_t slot, const char* who) const {
+        const auto photon = [&] { return std::string(who) + ": photon " + std::to_string(tree_.index(slot)); };
+        // Two photons may lie twice as far apart as either from the origin amid them.
+        if (!isfinite(T(4) * length2(position(slot))))
+            invalid_argument(photon() + " lies at " + text_of(V(tree_.origin() + position(slot))) +
+                             ", so far from the others that squared distances overflow; use a larger unit of length");
+        if (!(abs(length2(normals_[slot]) - T(1)) < T(0.01)))
+            invalid_argument(photon() + " has the normal " + text_of(normals_[slot]) +
+                             "; normals must be of unit length");
+        const double power = double(flux_traits<F>::power(fluxes_[slot]));
+        if (!isfinite(power))
+            invalid_argument(photon() + " has a flux of " + text_of(power) + "; fluxes must be finite");
+    }
+
     PointTree<V> tree_;
     std::vector<V> normals_;
     std::vector<F> fluxes_;
     T cos_same_surface_;
 };
 
-namespace detail {
-/// The photons nearest to that in a slot on its surface, itself among them, in no particular order.
+/// Finds the photons nearest to that in a slot on its surface, itself among them, in no particular order.
 ///
-/// They are looked for among at most 16 times as many of any surface: where more photons of others lie between them
-/// there are fewer, and the search has an end.
+/// The search ends at 16 · count photons of any surface: where more photons of other surfaces lie between, fewer than
+/// `count` are found.
 template <class Cloud, Scalar T>
 void nearest_on_surface(const Cloud& cloud, std::size_t slot, std::size_t count, std::vector<Neighbour<T>>& found) {
-    for (const std::size_t wanted : {count, 4 * count, 16 * count}) {
+    for (std::size_t wanted = count; wanted <= 16 * count; wanted *= 4) {
         found.resize(wanted);
         found.resize(cloud.tree().nearest(cloud.position(slot), found));
         std::erase_if(found, [&](const auto& other) { return !cloud.same_surface(slot, other.slot); });
@@ -135,6 +140,5 @@ void nearest_on_surface(const Cloud& cloud, std::size_t slot, std::size_t count,
             return;
     }
 }
-} // namespace detail
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -3,19 +3,13 @@
 ///        "Into the Blue: Better Caustics through Photon Relaxation".
 #pragma once
 
+#include "nephroid/relaxation/photon_constraint.hpp"
 #include "nephroid/vector/algebra.hpp"
 
 #include <cmath>
 #include <limits>
 
-namespace nephroid {
-
-/// What feature detection knows of a photon.
-template <Vector3 V>
-struct PhotonConstraint {
-    V direction;        ///< g: unit, in the tangent plane, along the feature; zero where there is none
-    scalar_t<V> weight; ///< w: 0 moves freely, 1 along g only
-};
+namespace nephroid::detail {
 
 /// τ(i), the over-relaxation of an iteration [eq. 2].
 ///
@@ -27,13 +21,13 @@ struct PhotonConstraint {
     return lambda_min + (lambda_max - lambda_min) * std::exp(-6 * progress * progress);
 }
 
-/// How much of its force a photon follows: from 1 at the first iteration to `final_step` at the last, in equal steps.
-/// Ours, for photons that all move at once.
-[[nodiscard]] inline double step_share(unsigned iteration, unsigned iterations, double final_step) {
+/// The fraction of its force that a photon follows: from 1 at the first iteration to `final_step` at the last, in equal
+/// steps. Ours, for photons that all move at once.
+[[nodiscard]] inline double step_fraction(unsigned iteration, unsigned iterations, double final_step) {
     return iterations > 1 ? 1 - (1 - final_step) * iteration / (iterations - 1) : 1;
 }
 
-/// One neighbour's share in the force on a photon [the summand of eq. 1].
+/// The force that one neighbour exerts on a photon [the summand of eq. 1].
 ///
 /// @param offset    x − x_k, from the neighbour to the photon
 /// @param distance  its length
@@ -53,7 +47,7 @@ template <Vector3 V>
     return force - dot(force, normal) * normal;
 }
 
-/// A force in the tangent plane, held back by its share w across the feature [eq. 10].
+/// A force in the tangent plane, of which the fraction w across the feature is taken away [eq. 10].
 ///
 /// Where the direction is zero (features that cancel out) the photon is held back in all directions.
 template <Vector3 V>
@@ -76,4 +70,4 @@ template <Scalar T>
     return exp(-(move2 / radius2) * (T(ln2) / (rho * rho)));
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -15,11 +15,12 @@
 
 namespace nephroid {
 
-/// Faure's permutation of the digits 0 to Base - 1. It leaves 0 where it is, so that the infinitely many leading
-/// zeros of an index stay zeros, and Base - 1 too.
+/// Faure's permutation of the digits 0 to Base - 1. It keeps Base - 1 and 0, so the leading zeros of an index stay
+/// zeros.
 ///
-/// Base 2c: the permutation of c, doubled, and the same plus one. Base 2c + 1: that of 2c with c put into its middle
-/// and the values from c on moved up by one. So 0 1, 0 1 2, 0 2 1 3, 0 3 2 1 4, 0 2 4 1 3 5, ...
+/// For base 2c: the permutation of base c doubled, then the same plus one. For base 2c + 1: the permutation of base 2c
+/// with c inserted in its middle and the values from c on increased by one. So 0 1, 0 1 2, 0 2 1 3, 0 3 2 1 4,
+/// 0 2 4 1 3 5, ...
 /// Source: Faure 1992, "Good permutations for extreme discrepancy".
 template <std::uint32_t Base>
     requires(Base >= 1)
@@ -45,7 +46,7 @@ template <std::uint32_t Base>
 
 namespace detail {
 
-/// How many digits of an index are looked up at once: as many as keep a table below 3 KiB, but at least two.
+/// The size of a table that looks up several digits of an index at once: as many as fit into 3 KiB, at least two.
 [[nodiscard]] constexpr std::uint32_t halton_block_size(std::uint32_t base) noexcept {
     std::uint32_t size = base * base;
     while (size * base <= 1500)
@@ -53,14 +54,14 @@ namespace detail {
     return size;
 }
 
-/// For each block of digits: the digits permuted, in reverse order.
+/// For each block of digits its number with the digits permuted and in reverse order.
 template <std::uint32_t Base>
 inline constexpr auto halton_reversed_digits = [] {
     constexpr auto permutation = faure_permutation<Base>();
     std::array<std::uint16_t, halton_block_size(Base)> reversed{};
-    // With one digit more in front, the others move back by one: the table grows from itself. Few steps for each entry,
-    // as compilers take about a microsecond for each; the first digit's part comes last, as it is what the others are
-    // made of.
+    // One more digit in front moves the others back by one: the table grows from itself, in few steps for each entry,
+    // as compilers take about a microsecond for each. The part of digit 0 comes last, as the other parts are made from
+    // it.
     for (std::size_t known = 1; known < reversed.size(); known *= Base) {
         for (std::size_t i = 0; i < known; ++i)
             reversed[i] = static_cast<std::uint16_t>(reversed[i] * Base);
@@ -74,12 +75,12 @@ inline constexpr auto halton_reversed_digits = [] {
 }();
 } // namespace detail
 
-/// The radical inverse with Faure's permutation: the digits of the index in an integer base, permuted, behind the
-/// point in reverse order.
+/// The radical inverse with Faure's permutation: the digits of the index in an integer base, permuted, in reverse order
+/// behind the point.
 ///
-/// The nearest floating-point number while the index is below 2^42 (it is computed as one division of exact
-/// integers), then to a few units in the last place: digits worth less than 2^-52 are dropped. In base 2 cut off, not
-/// rounded. Never 1: what would round to 1 becomes the number before it.
+/// For indices below 2^42 it is the nearest floating-point number, as one division of exact integers gives it; beyond,
+/// digits below 2^-52 are dropped, which costs a few units in the last place. In base 2 it is cut off, not rounded. It
+/// is never 1: a value that would round to 1 becomes the number before it.
 template <std::floating_point T, std::uint32_t Base>
     requires(Base >= 2 && Base <= 53)
 [[nodiscard]] constexpr T faure_radical_inverse(std::uint64_t index) noexcept {
@@ -100,19 +101,19 @@ template <std::floating_point T, std::uint32_t Base>
     }
 }
 
-/// Point i has as its coordinate in dimension d the permuted radical inverse of i in the d-th prime base.
+/// The Halton sequence: the coordinate of point i in dimension d is the permuted radical inverse of i in the d-th prime
+/// base.
 ///
-/// Any b^m successive points, b the base of a dimension, have one in each interval [k / b^m, (k + 1) / b^m) of it, and
-/// as many successive points as a product of powers of several bases have one in each box of that grid. So every range
-/// of indices is stratified, by itself and together with the ranges beside it.
+/// With b the base of a dimension, any b^m successive points have one in each interval [k / b^m, (k + 1) / b^m); as
+/// many successive points as a product of powers of several bases have one in each box of that grid. So every range of
+/// indices is stratified, by itself and together with its neighbours.
 ///
-/// The seed chooses where each dimension starts: seed 0 at index 0, the plain sequence, any other seed at an index
-/// below 2^32, random and of that dimension's own [Wang and Hickernell 2000, "Randomized Halton sequences"]. By the
-/// Chinese remainder theorem this is, to any finite resolution, a range of the plain sequence further on: unlike a
-/// random shift modulo 1 it keeps all intervals and boxes, and it costs one addition. Over seeds each point is uniform
-/// in the cube to within 1e-7, so that averages over seeds are unbiased for practical purposes.
+/// The seed chooses the index at which each dimension starts: 0 for seed 0, the plain sequence; for any other seed a
+/// random one below 2^32 [Wang and Hickernell 2000, "Randomized Halton sequences"]. By the Chinese remainder theorem
+/// this is, to any finite resolution, a later range of the plain sequence, so it keeps all intervals and boxes, unlike
+/// a random shift modulo 1. Over seeds each point is uniform in the cube to within 1e-7.
 ///
-/// There are `dimensions` bases; from there on numbers are hashed, as in RandomSequence. Index: below 2^63.
+/// From dimension `dimensions` on, numbers are hashed as in RandomSequence. Indices must be below 2^63.
 class HaltonSequence {
 public:
     static constexpr bool stratified = true;

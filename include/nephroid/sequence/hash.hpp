@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Stateless mixing of a 64-bit word, the reversal of its bits, and the number in [0, 1) made from it.
+/// @file  Mixes and reverses the bits of a 64-bit word, and turns them into a number in [0, 1).
 #pragma once
 
 #include "nephroid/version.hpp"
@@ -21,8 +21,8 @@ namespace nephroid {
     return x ^ (x >> 31);
 }
 
-/// A seed and a value become a new seed: any values, zero included. For a fixed seed a bijection of the value, so
-/// that different values never give the same seed. Fold calls to hash several values.
+/// Makes a new seed from a seed and any value, zero included. For a fixed seed it is a bijection: different values
+/// never give the same new seed. Nest calls to hash several values.
 [[nodiscard]] constexpr std::uint64_t hash_bits(std::uint64_t seed, std::uint64_t value) noexcept {
     constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15u; // 2^64 / 1.618..., odd
     return mix_bits(mix_bits(seed + golden_ratio) + golden_ratio * (value + 1));
@@ -38,8 +38,8 @@ namespace nephroid {
     return (x >> 32) | (x << 32);
 }
 
-/// 32 random bits as a multiple of 2^-32 in [0, 1), or of 2^-24 for float: the bits that do not fit are cut off,
-/// not rounded, so that the result is never 1.
+/// 32 random bits as a multiple of 2^-32 in [0, 1), for float of 2^-24: excess bits are cut off, not rounded, so the
+/// result is never 1.
 template <std::floating_point T>
 [[nodiscard]] constexpr T uniform_from_bits(std::uint32_t bits) noexcept {
     constexpr int kept = (std::min)(32, std::numeric_limits<T>::digits);
@@ -47,12 +47,12 @@ template <std::floating_point T>
     return static_cast<T>(bits >> (32 - kept)) * unit;
 }
 
-/// 64 random bits as a multiple of 2^-53 in [0, 1), or of 2^-24 for float: never 1. Of a wider T too 53 bits are used.
+/// 64 random bits as a multiple of 2^-53 in [0, 1), for float of 2^-24: never 1. A wider T also takes 53 bits.
 template <std::floating_point T>
 [[nodiscard]] constexpr T uniform_from_bits(std::uint64_t bits) noexcept {
     constexpr int kept = (std::min)(53, std::numeric_limits<T>::digits);
     constexpr T unit = T(1) / static_cast<T>(std::uint64_t{1} << kept);
-    // Through a signed integer: x86 has an instruction for it, and none for unsigned ones before AVX-512.
+    // By way of a signed integer: x86 converts unsigned ones only since AVX-512.
     return static_cast<T>(static_cast<std::int64_t>(bits >> (64 - kept))) * unit;
 }
 } // namespace nephroid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Independent uniform numbers with random access: the sequence that others are measured against.
+/// @file  Independent uniform random numbers with random access: the sequence to compare others with.
 #pragma once
 
 #include "nephroid/sequence/hash.hpp"
@@ -10,8 +10,8 @@
 
 namespace nephroid {
 
-/// Numbers without any relation to each other: every (seed, index, dimension) is hashed on its own. No state, so
-/// that a photon's numbers do not depend on the photons before it.
+/// Independent numbers: each is a hash of (seed, index, dimension). There is no state, so a photon's numbers do not
+/// depend on the photons before it.
 class RandomSequence {
 public:
     static constexpr bool stratified = false;
@@ -21,7 +21,7 @@ public:
 
     /// 64 random bits. Any index, any dimension.
     [[nodiscard]] constexpr std::uint64_t bits(std::uint64_t index, std::uint32_t dimension) const noexcept {
-        // A key enters before either mixing: were it one alone, two seeds' sequences could be shifts of each other.
+        // One key before each mixing: with a single key, the sequences of two seeds could be shifts of each other.
         constexpr std::uint64_t odd = 0xd1342543de82ef95u;
         return mix_bits(mix_bits(index + index_key_) + dimension_key_ + odd * dimension);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a sequence of sample points is, and the stream of numbers that one photon draws from it.
+/// @file  What a sequence of sample points is, and how one photon draws numbers from it.
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
@@ -17,15 +17,16 @@ concept SamplesAs = requires(const S sequence, std::uint64_t index, std::uint32_
 
 template <class S>
 concept SaysWhetherStratified = requires {
-    typename std::bool_constant<S::stratified>; // known to the compiler
+    typename std::bool_constant<S::stratified>; // a constant expression
 };
 
-/// An infinite sequence of points in the unit cube of any dimension, each coordinate to be had on its own.
+/// An infinite sequence of points in the unit cube of any dimension, with random access to each coordinate.
 ///
-/// `sample<T>(index, dimension)` is the coordinate of a point: in [0, 1), never 1, and a pure function of the
-/// sequence's seed and its two arguments, for every index and dimension, so that any range of points can be taken
-/// anywhere, in any order. `stratified` says whether the points of a range avoid each other: footprints of photons
-/// from a stratified sequence tile what random ones only cover on average.
+/// `sample<T>(index, dimension)` is one coordinate of a point: in [0, 1), never 1, and a pure function of the
+/// sequence's seed and the two arguments, for every index and dimension. So any machine can take any range of points,
+/// in any order.
+/// `stratified` says whether the points of a range avoid each other: footprints of photons from a stratified sequence
+/// tile the area that those of random photons only cover on average.
 ///
 /// ```cpp
 /// struct MySequence {
@@ -56,10 +57,10 @@ template <class S>
 concept MustBeSequence = SampleSequence<S> || explain_sequence<S>();
 } // namespace detail
 
-/// The numbers that one photon draws, in the order in which it draws them: the coordinates of the point with its
-/// index, from `first_dimension` on. A pure function of the sequence's seed, the index, and how many were drawn.
+/// Gives one photon its numbers: the coordinates of the point with the photon's index, one after another from
+/// `first_dimension` on. They depend on the sequence's seed, the index and how many were drawn, and on nothing else.
 ///
-/// Cheap to copy: it refers to the sequence, which has to outlive it.
+/// Cheap to copy: it refers to the sequence, which must outlive it.
 template <SampleSequence Sequence>
 class Sampler {
 public:
@@ -68,7 +69,7 @@ public:
         : sequence_(&sequence), index_(index), dimension_(first_dimension) {}
     explicit Sampler(const Sequence&&, std::uint64_t, std::uint32_t = 0) = delete; // would refer to a temporary
 
-    /// The next number, in [0, 1). A scalar that is a class (a dual number) is made from a double.
+    /// Draws the next number, in [0, 1). For a scalar that is a class (a dual number) it is drawn as a double.
     template <Scalar T>
     [[nodiscard]] constexpr T next() {
         if constexpr (std::floating_point<T>)
@@ -77,9 +78,9 @@ public:
             return T(sequence_->template sample<double>(index_, dimension_++));
     }
 
-    /// Which point of the sequence this is: the photon's number.
+    /// The index of the point, and so of the photon.
     [[nodiscard]] constexpr std::uint64_t index() const noexcept { return index_; }
-    /// The dimension from which the next number comes.
+    /// The dimension of the next number.
     [[nodiscard]] constexpr std::uint32_t dimension() const noexcept { return dimension_; }
 
 private:

@@ -14,12 +14,13 @@
 
 namespace nephroid {
 
-/// How many dimensions of the Sobol' sequence are tabulated.
+/// The number of tabulated dimensions of the Sobol' sequence.
 inline constexpr std::uint32_t sobol_dimensions = 16;
 
 namespace detail {
 
-/// What makes a dimension: the primitive polynomial's degree, its inner coefficients as bits, the first directions.
+/// The definition of a dimension: the primitive polynomial's degree, its inner coefficients as bits, the first
+/// directions.
 struct SobolDimension {
     std::uint32_t degree;
     std::uint32_t coefficients;
@@ -50,7 +51,7 @@ inline constexpr std::array<SobolDimension, sobol_dimensions - 1> joe_kuo = {{
     return static_cast<std::uint32_t>(reverse_bits(x) >> 32);
 }
 
-/// For each bit of the index what it flips in the coordinate, whose first digit is the highest bit.
+/// For each bit of the index the bits that it flips in the coordinate, whose first digit is the highest bit.
 [[nodiscard]] constexpr std::array<std::uint32_t, 32> sobol_matrix(std::uint32_t dimension) noexcept {
     std::array<std::uint32_t, 32> columns{};
     if (dimension == 0) {
@@ -71,7 +72,8 @@ inline constexpr std::array<SobolDimension, sobol_dimensions - 1> joe_kuo = {{
     return columns;
 }
 
-/// What each value of four of the index's bits flips in the coordinate, whose first digit here is the *lowest* bit.
+/// For each value of four bits of the index the bits that it flips in the coordinate, whose first digit here is the
+/// *lowest* bit.
 using SobolTable = std::array<std::array<std::uint32_t, 16>, 8>;
 
 inline constexpr auto sobol_tables = [] {
@@ -80,8 +82,8 @@ inline constexpr auto sobol_tables = [] {
         const auto columns = sobol_matrix(dimension);
         for (std::size_t bit = 0; bit < 32; ++bit) {
             const std::uint32_t flips = reverse_bits32(columns[bit]);
-            // A value with this highest bit flips what it does without it, and this. (Few steps: compilers take long
-            // over each.)
+            // A value with this highest bit flips these bits besides those that it flips without it. (Few steps, as
+            // compilers are slow at each.)
             auto& table = tables[dimension][bit / 4];
             const std::size_t highest = std::size_t{1} << (bit % 4);
             for (std::size_t rest = 0; rest < highest; ++rest)
@@ -91,7 +93,7 @@ inline constexpr auto sobol_tables = [] {
     return tables;
 }();
 
-/// The coordinate's 32 binary digits, the first one in the lowest bit.
+/// The 32 binary digits of a coordinate, the first one in the lowest bit.
 [[nodiscard]] constexpr std::uint32_t sobol_digits(std::uint32_t index, std::uint32_t dimension) noexcept {
     const SobolTable& t = sobol_tables[dimension];
     return t[0][index & 15u] ^ t[1][index >> 4 & 15u] ^ t[2][index >> 8 & 15u] ^ t[3][index >> 12 & 15u] ^
@@ -110,11 +112,9 @@ inline constexpr auto sobol_tables = [] {
 /// Owen's nested uniform scrambling of 32 binary digits, the first one in the lowest bit: whether a digit flips is a
 /// random function of the digits before it.
 ///
-/// Every step lets a bit act on itself and on higher bits only, which is what makes the scrambling nested [Laine and
-/// Karras 2011]. That the flips of different prefixes are independent rests on the key entering three times, and on
-/// the constants: chosen at random, kept for correlations over keys that cannot be told from an ideal scrambling's
-/// (2048 keys, all pairs of prefixes up to 7 digits, random and close pairs of longer ones). Laine and Karras' own
-/// steps show correlations up to 0.65 there.
+/// In every step a bit affects only itself and higher bits, which makes the scrambling nested [Laine and Karras 2011].
+/// The flips of different prefixes are independent because the key enters three times, and by the choice of constants:
+/// their correlations over keys cannot be told from an ideal scrambling's (those of Laine and Karras reach 0.65).
 [[nodiscard]] constexpr std::uint32_t nested_uniform_scramble(std::uint32_t digits, std::uint64_t key) noexcept {
     const auto low = static_cast<std::uint32_t>(key), high = static_cast<std::uint32_t>(key >> 32);
     std::uint32_t x = digits;
@@ -127,17 +127,18 @@ inline constexpr auto sobol_tables = [] {
     return x;
 }
 
-/// The Sobol' sequence, each dimension scrambled on its own by a random choice among all that keep its structure.
+/// The Sobol' sequence, with each dimension scrambled by itself, at random among the scramblings that keep its
+/// structure.
 ///
 /// Any 2^m successive points from a multiple of 2^m on have exactly one in each dyadic interval of each dimension, and
-/// dimensions 0 and 1 together one in each dyadic box of area 2^-m, of any shape (a (0, 2)-sequence in base 2).
-/// Scrambled, each point is uniform in the cube, so averages over seeds are unbiased, and smooth integrands gain a
-/// further factor sqrt(N) in error over the unscrambled sequence [Owen 1997]. Every seed scrambles, 0 too; for the
-/// plain points see `sobol_bits`.
+/// in dimensions 0 and 1 together one in each dyadic box of area 2^-m, of any shape (a (0, 2)-sequence in base 2). Each
+/// scrambled point is uniform in the cube, so averages over seeds are unbiased, and for smooth integrands the error is
+/// smaller by another factor sqrt(N) than with the unscrambled sequence [Owen 1997]. Every seed scrambles, 0 too; for
+/// the plain points see `sobol_bits`.
 ///
 /// Coordinates are multiples of 2^-32 (float: 2^-24). Each 2^32 successive indices fill that grid; the next 2^32 are
-/// the same points scrambled anew, by the index's upper half: stratified among themselves, independent of the others.
-/// From dimension `dimensions` on numbers are hashed, as in RandomSequence. Any index.
+/// the same points with another scrambling: stratified among themselves, independent of the others. From dimension
+/// `dimensions` on, numbers are hashed as in RandomSequence. Any index.
 ///
 /// Source: Burley 2020, "Practical hash-based Owen scrambling"; Sobol' 1967; Joe and Kuo 2008 for the directions.
 class SobolSequence {

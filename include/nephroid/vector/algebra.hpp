@@ -5,15 +5,16 @@
 #include "nephroid/vector/stable.hpp"
 #include "nephroid/vector/traits.hpp"
 
+#include <algorithm>
 #include <type_traits>
 
 namespace nephroid {
 
-// Component-wise operators for every vector. Code inside namespace nephroid finds them by ordinary look-up and the
-// type's own by argument-dependent look-up; where the type has a linear operator of exactly this shape, that one is
-// the better match and is used (GLM, SSE vectors), and where its operator would convert, build an expression
-// template or do not exist at all, these are. User code does not see them (without `using namespace nephroid`).
-// Traits with a member `native_operators = true` take them out of the running.
+// Component-wise operators for every vector. Code inside namespace nephroid finds them by ordinary look-up, and the
+// type's own by argument-dependent look-up. The type's own operator is used where it takes exactly these arguments
+// (GLM, SSE vectors); these are used where it would convert, would build an expression template, or does not exist.
+// User code does not see them without `using namespace nephroid`. A member `native_operators = true` of the traits
+// removes them.
 namespace detail {
 template <class V>
 concept UsesOurOperators = Vector3<V> && !requires {
@@ -48,7 +49,7 @@ template <detail::UsesOurOperators V>
 // The functions below are objects, so that an unqualified call inside the library is never a candidate for
 // argument-dependent look-up in the vector's own namespace (glm::dot, Eigen's, ...).
 
-/// make_vector<V>(x, y, z)
+/// The vector of three components: make_vector<V>(x, y, z).
 template <Vector3 V>
 [[nodiscard]] constexpr V make_vector(scalar_t<V> x, scalar_t<V> y, scalar_t<V> z) {
     return vector_traits<V>::make(x, y, z);

@@ -12,11 +12,11 @@
 
 namespace nephroid {
 
-/// value + Σ derivative(i) εᵢ with εᵢ εⱼ = 0: forward automatic differentiation. The library runs on it as on
-/// any scalar, so that a whole caustic can be differentiated by parameters of the scene, and a photon's tangents by
-/// where it was emitted (smoothing/second_order/exact_path_derivatives.hpp). Comparisons look at the value alone.
+/// value + Σ derivative(i) εᵢ with εᵢ εⱼ = 0: forward automatic differentiation. It is a scalar for the whole
+/// library, which can thus differentiate a caustic by parameters of the scene, and a photon's tangents by where it was
+/// emitted (smoothing/second_order/exact_path_derivatives.hpp). Comparisons compare the values alone.
 ///
-/// Where a function has no derivative (the root at 0) it is 0.
+/// Where a function has no derivative (the root at 0), 0 stands for it.
 ///
 /// @tparam T  the numbers: float, double, or a wider scalar
 /// @tparam N  parameters, >= 1
@@ -29,7 +29,7 @@ public:
     constexpr Dual(Number value) : value_(static_cast<T>(value)) {}
     constexpr Dual(const T& value, const std::array<T, N>& derivatives) : value_(value), derivatives_(derivatives) {}
 
-    /// The parameter with an index itself, at this value: its derivative by itself is 1.
+    /// A parameter at a value: its derivative by itself is 1, by the others 0.
     [[nodiscard]] static constexpr Dual parameter(const T& value, std::size_t index = 0) {
         Dual dual;
         dual.value_ = value;
@@ -115,7 +115,7 @@ private:
         return result;
     }
 
-    /// f(this) from f's value and slope there.
+    /// f(this), from the value and the slope of f there.
     [[nodiscard]] constexpr Dual chain(const T& value, const T& slope) const {
         return combined(value, [&](std::size_t i) { return T(slope * derivatives_[i]); });
     }
@@ -130,7 +130,7 @@ inline constexpr bool is_scalar<Dual<T, N>> = true;
 } // namespace nephroid
 
 /// @cond  Doxygen looks for the class in nephroid
-// Those of the value, as far as they are not functions of T alone.
+// Those of the value; what they return is of type T.
 template <class T, std::size_t N>
 class std::numeric_limits<nephroid::Dual<T, N>> : public std::numeric_limits<T> {};
 /// @endcond

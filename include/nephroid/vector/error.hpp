@@ -13,18 +13,18 @@
 
 namespace nephroid {
 
-/// What is called with the message under `-fno-exceptions`. It must not return; if it does, the program aborts.
+/// A function that receives the message under `-fno-exceptions`. It must not return; if it does, the program aborts.
 /// Renderers set their own (log, longjmp, assert); the default aborts.
 using ErrorHandler = void (*)(const char* message);
 
-/// The handler in force, process-wide; assign before the first call into the library. Unused when exceptions are on.
+/// The process's handler; assign it before the first call into the library. Not used where exceptions are on.
 inline ErrorHandler error_handler = [](const char*) { std::abort(); };
 
 /// Reports an argument that only a wrong call or a broken scene can cause.
 ///
 /// @param message  "nephroid::function: what the value was, and what to do"
-/// Throws std::invalid_argument with that message, or hands it to `error_handler` under `-fno-exceptions`. All files of
-/// one program that include the library are to be compiled the same way in this respect.
+/// Throws std::invalid_argument with that message, or calls `error_handler` with it under `-fno-exceptions`. All files
+/// of one program that include the library must agree in this respect.
 [[noreturn]] inline void invalid_argument(const std::string& message) {
 #if defined(__cpp_exceptions)
     throw std::invalid_argument(message);

@@ -13,9 +13,9 @@ struct Frame {
     V v;
 };
 
-/// A frame about the unit vector n, for every n: no singularity, no branch that loses digits, no normalisation.
-/// Its only discontinuity is where n.z changes sign. |n| must be 1 to rounding (not checked).
-/// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited"; it mends Frisvad 2012 near n = (0, 0, −1).
+/// Makes a frame about any unit vector n, without a singularity, a loss of digits or a normalisation. It is continuous
+/// but where n.z changes sign. |n| must be 1 to rounding (not checked).
+/// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited", which corrects Frisvad 2012 near (0, 0, −1).
 template <Vector3 V>
 [[nodiscard]] Frame<V> frame_about(const V& n) {
     using T = scalar_t<V>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Objects made where they are to stay.
+/// @file  Makes objects in place, without a copy.
 #pragma once
 
 #include "nephroid/version.hpp"
@@ -8,13 +8,12 @@
 
 namespace nephroid {
 
-/// Becomes what `make()` returns: given to an optional's `emplace`, or after std::in_place, it makes the object in
-/// there.
+/// Converts to what `make()` returns. Given to an optional's `emplace`, or after std::in_place, it constructs the
+/// object inside the optional.
 ///
-/// An aggregate that is written member by member and then copied is loaded in wide pieces while its narrow stores are
-/// still on their way, which costs a processor as much as the arithmetic of a hit. Not for a type that can be
-/// constructed from anything: it would take this object itself. (Compilers without the resolution of CWG 2327 may move
-/// what is made, as they would without this.)
+/// An aggregate that is written member by member and then copied stalls the processor, whose wide loads wait for narrow
+/// stores: as much time as the arithmetic of a hit. Not for a type that can be constructed from anything, which would
+/// take this object itself. (Compilers without the resolution of CWG 2327 may still move the object.)
 ///
 /// ```cpp
 /// std::optional<MyHit> hit(std::in_place, nephroid::InPlace{[&] { return mesh.hit(record); }});

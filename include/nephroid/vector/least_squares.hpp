@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Weighted linear least squares with a few unknowns, row after row.
+/// @file  Weighted linear least squares with a few unknowns.
 #pragma once
 
 #include "nephroid/version.hpp"
@@ -10,7 +10,7 @@
 
 namespace nephroid {
 
-/// Σ_i row_i x_i = right for many rows, each with a weight.
+/// Solves Σ_i row_i x_i = right for many rows, each with a weight, in the least-squares sense.
 ///
 /// @tparam N      unknowns
 /// @tparam Value  of an unknown: a double, or a vector with +, − and a product with a double
@@ -29,12 +29,12 @@ public:
         }
     }
 
-    /// The first n unknowns, the others left out of the equations, by Cholesky's decomposition of the matrix scaled to
-    /// a unit diagonal.
+    /// Solves for the first n unknowns, with the others set to 0, by Cholesky's decomposition of the matrix scaled to a
+    /// unit diagonal.
     ///
-    /// @return  whether the rows determine them; `x` is undefined if not, and 0 from n on
+    /// @return  whether the rows determine them; if not, `x` is undefined
     [[nodiscard]] bool solve(std::size_t n, std::array<Value, N>& x) const {
-        constexpr double least_pivot = 1e-4; // of 1: what is left of a column after the others; rounding is far below
+        constexpr double least_pivot = 1e-4; // of 1: the part of a column that the others do not explain; not rounding
         x = {};
         std::array<double, N> scale;
         for (std::size_t i = 0; i < n; ++i) {

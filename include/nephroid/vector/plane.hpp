@@ -18,6 +18,7 @@ struct Plane2 {
     [[nodiscard]] friend double inner(Plane2 a, Plane2 b) { return a.x * b.x + a.y * b.y; }
 };
 
+/// A symmetric 2 × 2 tensor.
 struct Symmetric2 {
     double xx = 0, xy = 0, yy = 0;
 
@@ -58,7 +59,7 @@ struct PlaneMatrix {
     return {inner(row_x, s(row_x)), inner(row_x, s(row_y)), inner(row_y, s(row_y))};
 }
 
-/// Eigenvalues, and the direction of the larger one.
+/// The eigenvalues of a tensor, and the direction of the larger one.
 struct Principal2 {
     double larger, smaller;
     Plane2 axis; ///< unit
@@ -71,7 +72,7 @@ struct Principal2 {
         axis = {std::cos(angle), std::sin(angle)};
     }
 
-    /// The tensor with the same axes and other eigenvalues.
+    /// The tensor with the same axes and these eigenvalues, the first one along `axis`.
     [[nodiscard]] Symmetric2 with(double along, double across) const {
         return {along * axis.x * axis.x + across * axis.y * axis.y, (along - across) * axis.x * axis.y,
                 along * axis.y * axis.y + across * axis.x * axis.x};

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// @file  Small algebra that does not cancel and does not branch.
+/// @file  Arithmetic that neither cancels nor branches.
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -41,8 +40,8 @@ template <Scalar T>
     }
 }
 
-/// value where the condition holds, else zero, as a mask instead of a branch: compilers vectorise loops over it
-/// without being told that comparing floating-point numbers has no side effects, and a NaN that is not kept is gone.
+/// The value where the condition holds, else zero, by a mask instead of a branch: compilers can vectorise loops over
+/// it, and a NaN that is not kept leaves no trace.
 template <Scalar T>
 [[nodiscard]] constexpr T keep_if(bool condition, const T& value) {
     if constexpr (std::is_same_v<T, float>)
@@ -54,35 +53,11 @@ template <Scalar T>
         return condition ? value : T(0);
 }
 
-/// A 2 x 2 matrix by columns: x = (xx, yx), y = (xy, yy).
-template <Scalar T>
-struct Matrix2 {
-    T xx, xy;
-    T yx, yy;
-};
-
-template <Scalar T>
-[[nodiscard]] constexpr T determinant(const Matrix2<T>& m) {
-    return difference_of_products(m.xx, m.yy, m.xy, m.yx);
-}
-
-/// The singular values of a 2 x 2 matrix, major >= minor >= 0.
+/// The singular values of a 2 × 2 matrix, major >= minor >= 0.
 template <Scalar T>
 struct SingularValues {
     T major;
     T minor;
 };
-
-/// Singular values without squaring the condition number: the major one from the conformal and anticonformal
-/// parts, the minor one as |det| / major, so both are accurate to a few roundings down to axis ratios of 1/epsilon.
-template <Scalar T>
-[[nodiscard]] SingularValues<T> singular_values(const Matrix2<T>& m) {
-    const T sum = sqrt(square(m.xx + m.yy) + square(m.yx - m.xy));
-    const T difference = sqrt(square(m.xx - m.yy) + square(m.yx + m.xy));
-    const T major = T(0.5) * (sum + difference);
-    if (!(major > T(0)))
-        return {major, major}; // zero, or NaN, which must not pass for a point
-    return {major, (std::min)(major, abs(determinant(m)) / major)};
-}
 
 } // namespace nephroid

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a vector is: one traits class that a renderer specialises for its own type, once.
+/// @file  What a vector is: a traits class that a renderer specialises once for its own type.
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-/// How the library reads and makes a user's vector. Specialise it for a vector type of three components:
+/// Tells the library how to read and make a user's vector. Specialise it for a vector type of three components:
 ///
 /// ```cpp
 /// template <> struct nephroid::vector_traits<MyVec3> {
@@ -21,10 +21,10 @@ namespace nephroid {
 /// };
 /// ```
 ///
-/// That is all: no operator is asked for (algebra.hpp says when a type's own are used), and the products are computed
-/// from the components. A type whose operators are templates that would take anything may be ambiguous with the
-/// library's; `static constexpr bool native_operators = true;` in its traits then leaves all four to the type. The
-/// primary template stays undefined, so that a foreign type makes a concept answer "no" instead of failing inside.
+/// That is all: the type needs no operators (algebra.hpp says when its own are used), and products are computed from
+/// the components. A type whose operators are templates that accept anything may be ambiguous with the library's;
+/// `static constexpr bool native_operators = true;` in its traits then makes the library use the type's. The primary
+/// template stays undefined, so that a concept answers "no" for a foreign type instead of failing inside.
 template <class V>
 struct vector_traits;
 
@@ -53,7 +53,7 @@ template <class V>
 concept Vector3 = std::copyable<V> && HasVectorTraits<V> && HasScalar<V> && HasComponents<V> && MakesFromComponents<V>;
 
 namespace detail {
-/// What is missing, as the first line of the compiler's message.
+/// Says what is missing in the first line of the compiler's message.
 template <class V>
 consteval bool explain_vector() {
     static_assert(std::copyable<V>, "nephroid: a vector must be copyable, and not const or a reference");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Vectors in the next wider scalar: of floats in double, where their products are exact.
+/// @file  Vectors in the next wider scalar: float vectors in double, where products of floats are exact.
 #pragma once
 
 #include "nephroid/vector/stable.hpp"
@@ -10,7 +10,7 @@
 
 namespace nephroid::detail {
 
-/// A vector's components: of floats in double, where their products neither overflow nor vanish; else as they are.
+/// A vector's components in `wider_t`: products of floats neither overflow nor vanish in double.
 template <Vector3 V>
 using Wide3 = std::array<wider_t<scalar_t<V>>, 3>;
 
@@ -26,7 +26,7 @@ template <class W>
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// a × b. Of floats in double, where their products are exact: what cancels then does so without an error.
+/// a × b. Products of floats are exact in double, so they cancel without an error.
 template <Vector3 V>
 [[nodiscard]] Wide3<V> wide_cross(const Wide3<V>& a, const Wide3<V>& b) {
     using W = wider_t<scalar_t<V>>;

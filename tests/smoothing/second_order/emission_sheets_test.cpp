@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/smoothing/second_order/emission_sheets.hpp"
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 
 #include "smoothing/second_order/maps.hpp"
 #include "support/space.hpp"

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/smoothing/second_order/sheet_field.hpp"
 
 #include "smoothing/second_order/sheets.hpp"

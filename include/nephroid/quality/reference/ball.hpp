@@ -2,7 +2,7 @@
 /// @file  The exact caustic of a glass ball on the floor below it.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/quality/reference/ball_map.hpp"
 #include "nephroid/quality/reference/film.hpp"
 #include "nephroid/quality/reference/quadrature.hpp"
@@ -23,27 +23,27 @@ inline void check(const Ball& ball) {
             static_cast<double>(ball.source), "be a BallLight");
 }
 
-/// The flux through an edge of a pixel, of the field that spreads from the axis and has the irradiance as its
-/// divergence: F(rho) / (2 pi rho) outwards, F(rho) being the flux on the floor within rho of the axis.
+/// The flux of a vector field through one side of a pixel. The field points away from the axis, has the size
+/// F(rho) / (2 pi rho) with F(rho) the flux on the floor within rho of the axis, and its divergence is the irradiance.
 ///
-/// The edge runs along the line at the signed distance `x` from the axis, from `y0` to `y1` measured along it from the
-/// foot of the axis. Seen from the axis it is an integral of F over the angle; y = |x| sinh(s) makes it a mild one.
+/// The side lies on the line at the signed distance `x` from the axis, from `y0` to `y1` along it. The flux is an
+/// integral of F over the angle seen from the axis; the substitution y = |x| sinh(s) makes it smooth.
 [[nodiscard]] inline double edge_flux(const BallFlux& flux, double x, double y0, double y1) {
     const double d = std::abs(x);
     if (d == 0)
         return 0;
     const double s0 = std::asinh(y0 / d), s1 = std::asinh(y1 / d);
-    // Where the line passes the circles at which F is not analytic: at the rim it has a kink, at the fold a root.
+    // Where the line crosses the circles at which F is not analytic: at the rim it has a kink, at the fold a root.
     const auto crossing = [d](double radius) { return radius > d ? std::acosh(radius / d) : 0; };
     const double fold = crossing(flux.map().fold_radius()), rim = crossing(flux.map().rim_radius());
 
-    // In equal panels: short ones need few nodes. The poles of 1/cosh are at +-i pi/2.
+    // In equal panels; short ones need few nodes. The poles of 1/cosh are at +-i pi/2.
     const auto panels = [](const auto& f, double a, double b, double scale) {
         return scale * (b - a) < 0.04 && b - a < 0.04 ? integrate<4>(f, a, b)
                                                       : integrate_panels<10>(f, a, b, 0.4 / (std::fmax)(1.0, scale));
     };
     const auto smooth = [&](double s) { return flux.within(d * std::cosh(s)) / std::cosh(s); };
-    // Within the fold, s = fold sin(tau) takes the square roots at both crossings away.
+    // Within the fold, s = fold sin(tau) removes the square roots at both crossings.
     const auto folded = [&](double tau) { return smooth(fold * std::sin(tau)) * fold * std::cos(tau); };
 
     const std::array<double, 6> ends{-std::numeric_limits<double>::infinity(), -rim, -fold, fold, rim,
@@ -60,8 +60,10 @@ inline void check(const Ball& ball) {
 
 } // namespace detail
 
-/// @param radius  of a disk on the floor about the axis, world units, >= 0; infinity for the whole floor
-/// @return  the flux that reaches the disk through the ball, exact to about 1e-13
+/// The flux that reaches a disk on the floor through the ball.
+///
+/// @param radius  of the disk about the axis, world units, >= 0; infinity for the whole floor
+/// @return  exact to about 1e-13
 /// Throws `std::invalid_argument` if an argument is out of range.
 [[nodiscard]] inline double ball_flux(const Ball& ball, double radius) {
     detail::check(ball);
@@ -70,7 +72,7 @@ inline void check(const Ball& ball) {
     return std::isinf(radius) ? map.emitted_below(map.last()) : detail::BallFlux(map, radius).within(radius);
 }
 
-/// @return  the radius of the ring-shaped fold on the floor, in world units
+/// The radius of the ring-shaped fold on the floor, world units.
 [[nodiscard]] inline double ball_fold_radius(const Ball& ball) {
     detail::check(ball);
     return detail::BallMap(ball).fold_radius();
@@ -78,7 +80,7 @@ inline void check(const Ball& ball) {
 
 /// Computes the caustic on the floor below a glass ball, of the light refracted exactly twice.
 ///
-/// @param film     any rectangle. On the axis and at the fold the irradiance is infinite, but its averages are not.
+/// @param film      any rectangle. On the axis and at the fold the irradiance is infinite, but its averages are not.
 /// @param executor  who runs the work; the result does not depend on it, bit for bit
 /// @return  irradiances averaged over the pixels. A pixel is a difference of fluxes, so it is exact to about
 ///          1e-14 * (flux within its distance from the axis) / (that distance * the pixel's side), plus 1e-12 of itself

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where light goes that a glass ball refracts twice, and how much of it lands within a circle on the floor.
+/// @file  The map from where light meets a glass ball to where it lands, refracted twice, and the flux within a circle
+///        on the floor.
 #pragma once
 
 #include "nephroid/quality/reference/fresnel.hpp"
@@ -27,17 +28,17 @@ struct Ball {
 
 namespace detail {
 
-/// The ray that meets the ball at the angle of incidence i, 0 to pi/2, in its plane through the axis.
+/// Rays by their angle of incidence i on the ball, 0 to pi/2, each in its plane through the axis.
 ///
-/// With i it turns towards the axis by 2(i - t), t the refracted angle. It lands at x = landing(i): on the side on
-/// which it met the ball up to the crossing, on the other side beyond.
+/// The ball turns a ray towards the axis by 2(i - t), with t the refracted angle. It lands at x = landing(i): up to the
+/// crossing on the side where it met the ball, beyond it on the other side.
 class BallMap {
 public:
     explicit BallMap(const Ball& ball) : ball_(ball) {
         const double grazing = 0.5 * std::numbers::pi;
         const auto descent = [this](double i) { return std::cos(path(i).direction); };
         last_ = descent(grazing) < 0 ? root_between(descent, 0, grazing) : grazing;
-        // x rises to the fold, then falls: through the axis, on to the rim. One change of sign in each bracket.
+        // x rises to the fold, then falls through the axis to the rim: one change of sign in each bracket.
         fold_ = root_between([this](double i) { return landing_slope(i); }, 0, 0.8 * last_);
         crossing_ = root_between([this](double i) { return landing_behind(i, 0); }, fold_, last_);
         rim_radius_ = last_ < grazing ? 1e300 : -landing(last_);
@@ -45,7 +46,7 @@ public:
 
     [[nodiscard]] double fold() const { return fold_; }         ///< i of the ray that lands on the fold
     [[nodiscard]] double crossing() const { return crossing_; } ///< i of the ray that lands on the axis, after the fold
-    [[nodiscard]] double last() const { return last_; } ///< beyond this i the rays leave upwards, or miss the ball
+    [[nodiscard]] double last() const { return last_; }         ///< beyond this i rays leave upwards, or miss the ball
     [[nodiscard]] double fold_radius() const { return landing(fold_); }
     [[nodiscard]] double rim_radius() const { return rim_radius_; } ///< of the lit disk; 1e300 if it has no end
 
@@ -54,14 +55,14 @@ public:
         return std::sin(at.exit) + std::tan(at.direction) * (centre - std::cos(at.exit));
     }
 
-    /// (landing(i) + radius) times the cosine of the descent: of the same sign, but finite for level rays.
+    /// (landing(i) + radius) times the cosine of the descent: the same sign, but finite for horizontal rays.
     [[nodiscard]] double landing_behind(double i, double radius) const {
         const Path at = path(i);
         return (std::sin(at.exit) + radius) * std::cos(at.direction) +
                std::sin(at.direction) * (centre - std::cos(at.exit));
     }
 
-    /// The flux that meets the ball at angles of incidence below i and comes out below.
+    /// The flux that meets the ball at angles of incidence below i and leaves it downwards.
     [[nodiscard]] double emitted_below(double i) const {
         return integrate_panels<16>(
             [this](double angle) {
@@ -77,7 +78,7 @@ public:
     }
 
 private:
-    /// The point where the ray leaves, and its direction there: angles at the centre from straight down towards +x.
+    /// The point where the ray leaves, and its direction there: angles from straight down towards +x.
     struct Path {
         double exit, direction;
     };
@@ -108,7 +109,7 @@ private:
     double fold_ = 0, crossing_ = 0, last_ = 0, rim_radius_ = 0;
 };
 
-/// The flux on the floor within a distance from the axis, from a table of polynomials (to about 1e-14).
+/// The flux on the floor within a distance of the axis, from a table of polynomials (to about 1e-14).
 class BallFlux {
 public:
     /// @param reach  the largest distance that will be asked for, >= 0

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT
-/// @file  The rectangle of the floor z = 0 that an exact caustic image shows, and the image itself.
+/// @file  The rectangle of the floor z = 0 that an exact image of a caustic shows, and the image.
 #pragma once
 
 #include "nephroid/vector/error.hpp"
+#include "nephroid/vector/text.hpp"
 
 #include <cmath>
 #include <cstddef>
-#include <sstream>
+#include <string>
 #include <vector>
 
 namespace nephroid::reference {
 
-/// A rectangle of the plane z = 0 in world units, seen from above without perspective, cut into width x height equal
-/// pixels. A pixel shows the irradiance averaged over its own rectangle.
+/// A rectangle of the plane z = 0, seen from above without perspective and divided into width × height equal pixels. A
+/// pixel shows the irradiance averaged over its rectangle.
 struct Film {
     double x_min = 0, x_max = 1;   ///< world units, x_min < x_max
     double y_min = 0, y_max = 1;   ///< world units, y_min < y_max
@@ -41,15 +42,14 @@ namespace detail {
 
 /// Throws `std::invalid_argument` "nephroid::reference::<function>: <name> is <value>, but must <rule>" unless `valid`.
 inline void require(bool valid, const char* function, const char* name, double value, const char* rule) {
-    if (valid)
-        return;
-    std::ostringstream message;
-    message << "nephroid::reference::" << function << ": " << name << " is " << value << ", but must " << rule;
-    invalid_argument(message.str());
+    if (!valid)
+        invalid_argument(std::string("nephroid::reference::") + function + ": " + name + " is " +
+                         nephroid::detail::text_of(value) + ", but must " + rule);
 }
 
-/// @return  as many zeros as `film` has pixels.
-/// @param function  the name in the message, e.g. "wave"
+/// Makes an image with a zero for each pixel of the film.
+///
+/// @param function  the caller's name for the message, e.g. "wave"
 /// Throws `std::invalid_argument` if the film is not as its members' comments say.
 inline Image blank(const Film& film, const char* function) {
     require(std::isfinite(film.x_min), function, "film.x_min", film.x_min, "be finite");

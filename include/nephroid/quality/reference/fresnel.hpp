@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  How much unpolarised light passes from one dielectric into another.
+/// @file  The fraction of unpolarised light that passes from one dielectric into another. The references have their
+///        own, so that they share no formula with what they check.
 #pragma once
 
 #include "nephroid/version.hpp"

@@ -49,7 +49,7 @@ template <std::size_t N, class F>
     return half * sum;
 }
 
-/// As above, in equal panels no longer than `panel`.
+/// The same, in equal panels no longer than `panel`.
 template <std::size_t N, class F>
 [[nodiscard]] double integrate_panels(const F& f, double a, double b, double panel) {
     const int panels = static_cast<int>((std::fmax)(1.0, std::ceil(std::abs(b - a) / panel)));

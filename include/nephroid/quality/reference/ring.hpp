@@ -2,7 +2,7 @@
 /// @file  The exact caustic of a half cylinder mirror on the floor it stands on.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/quality/reference/film.hpp"
 #include "nephroid/quality/reference/ring_chord.hpp"
 #include "nephroid/quality/reference/ring_gallery.hpp"
@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <numbers>
 #include <vector>
 
@@ -38,10 +37,10 @@ inline void check(const Ring& ring) {
             static_cast<double>(ring.reflections), "be a Reflections");
 }
 
-/// One chord of the light, as far as all pixels of a film share what they need to know of it.
+/// One chord of the light, with the angles that all pixels of a film share.
 class ChordOnFilm {
 public:
-    /// @param mirrored  add the light that meets the mirror at y < 0: its chords on the film seen upside down
+    /// @param mirrored  for the light that meets the mirror at y < 0: the same chords on the film upside down
     ChordOnFilm(const Chord& chord, const Film& film, bool mirrored)
         : chord_(chord), film_(film), mirrored_(mirrored), columns_(static_cast<std::size_t>(film.width) + 1) {
         for (int i = 0; i <= film.width; ++i)
@@ -52,7 +51,7 @@ public:
     /// Adds the flux on each pixel of row `j` to `row`.
     void add_row(int j, double* row) const {
         const double y0 = mirrored_ ? -film_.y(j + 1) : film_.y(j), y1 = mirrored_ ? -film_.y(j) : film_.y(j + 1);
-        // All chords lie between the circles of radius nearest() and 1: no need to look elsewhere.
+        // All chords lie between the circles of radius nearest() and 1.
         const double y_near = (std::fmax)(0.0, (std::fmax)(y0, -y1)), y_far = (std::fmax)(std::abs(y0), std::abs(y1));
         if (y_near >= 1)
             return;
@@ -71,9 +70,14 @@ public:
             passes_corners(i + 1, y0, y1, right);
             phis.assign({chord_.first(), chord_.last()});
             const auto column = static_cast<std::size_t>(i);
-            for (const std::vector<double>& more : {std::cref(ends), std::cref(left), std::cref(right),
-                                                    std::cref(columns_[column]), std::cref(columns_[column + 1])})
+            const auto append = [&](const std::vector<double>& more) {
                 phis.insert(phis.end(), more.begin(), more.end());
+            };
+            append(ends);
+            append(left);
+            append(right);
+            append(columns_[column]);
+            append(columns_[column + 1]);
             std::sort(phis.begin(), phis.end());
             row[i] += chord_.flux({film_.x(i), film_.x(i + 1), y0, y1}, phis);
         }
@@ -85,7 +89,7 @@ private:
         chord_.passes_point(film_.x(i), y1, phis);
     }
 
-    /// The number of columns that lie wholly before `x`, or nearly so.
+    /// The number of columns that lie wholly, or nearly so, before `x`.
     [[nodiscard]] int columns_before(double x) const {
         const double i = std::floor((x - film_.x_min) / film_.pixel_width());
         return static_cast<int>((std::clamp)(i, 0.0, static_cast<double>(film_.width)));
@@ -99,9 +103,8 @@ private:
 
 } // namespace detail
 
-/// @return  the flux that the mirror brings to the floor, from closed forms: each strip of the mirror gets
-///          cot(35 degrees) cos(phi) per height and angle, and light falls no further than a chord, 2 cos(phi), before
-///          it hits again.
+/// The flux that the mirror reflects to the floor, from closed forms: each strip of the mirror receives
+/// cot(35 degrees) cos(phi) per height and angle, and light flies a chord, 2 cos(phi), before it hits the mirror again.
 /// Throws `std::invalid_argument` if `reflections` is not one of its values.
 [[nodiscard]] inline double ring_flux(const Ring& ring) {
     detail::check(ring);
@@ -114,18 +117,18 @@ private:
 
 /// Computes the caustic on the floor inside a half cylinder mirror.
 ///
-/// @param film     any rectangle
+/// @param film      any rectangle
 /// @param executor  who runs the work; the result does not depend on it, bit for bit
-/// @return  irradiances averaged over the pixels, exact to about 1e-8 of themselves; with any number of reflections to
-///          1e-6 along the mirror, and to 1e-6 of the image's mean in pixels that it touches near (0, 1) and (0, -1),
-///          for pixels of sides above 1e-4
+/// @return  irradiances averaged over the pixels, exact to about 1e-8 of themselves. With any number of reflections:
+///          to 1e-6 along the mirror, and to 1e-6 of the image's mean in pixels on the mirror near (0, 1) and (0, -1),
+///          for pixels with sides above 1e-4
 /// Throws `std::invalid_argument` if the film is out of range, or `reflections` is not one of its values.
 template <ExecutorArgument E = ThreadExecutor>
 [[nodiscard]] Image ring(const Ring& ring, const Film& film, E&& executor = E{}) {
     Image image = detail::blank(film, "ring");
     detail::check(ring);
 
-    // Chords of light that is reflected often hug the mirror: those beyond a number are taken together.
+    // Light that is reflected many times creeps along the mirror: its chords beyond a number are taken together.
     const double side = (std::min)(film.pixel_width(), film.pixel_height());
     const bool any = ring.reflections == Reflections::any;
     const int count = any ? detail::Gallery::chords_before(detail::ring_reach, side) : 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The light between two hits inside a half cylinder mirror, and when it meets what on the floor.
+/// @file  The light between two hits inside a half cylinder mirror, and the flux that it brings to a rectangle.
 #pragma once
 
 #include "nephroid/quality/reference/quadrature.hpp"
@@ -39,11 +39,11 @@ struct Segment {
     }
 };
 
-/// Seen from above, the light that meets the mirror at (cos phi, sin phi) follows chords of the unit circle, each of
-/// length 2 cos(phi), and reaches the floor after `reach` at the latest, depending on the height of the first hit.
-/// Here is its chord `k` (0: after the first hit) as phi varies; phi > 0, the other half is its mirror image.
+/// The chord between hits k and k + 1 of light that first meets the mirror at (cos phi, sin phi), as phi varies; k = 0
+/// comes after the first hit. phi > 0: the other half is the mirror image.
 ///
-/// Source: the law of reflection; every hit turns the light by the same angle 2 phi + pi.
+/// Seen from above, light follows chords of the unit circle, each of length 2 cos(phi), and reaches the floor after a
+/// distance of at most `reach`, depending on the height of the first hit. Every hit turns it by 2 phi + pi.
 class Chord {
 public:
     /// @param k      number of hits before the last, >= 0
@@ -54,9 +54,9 @@ public:
 
     [[nodiscard]] double first() const { return first_; } ///< the least phi for which light gets as far as chord k
     [[nodiscard]] double last() const { return last_; }
-    [[nodiscard]] double nearest() const { return k_ == 0 ? 0 : std::sin(first_); } ///< to the axis, of all chords
+    [[nodiscard]] double nearest() const { return k_ == 0 ? 0 : std::sin(first_); } ///< least distance from the axis
 
-    /// Where the light on chord k reaches the floor. Its flux per length and phi is cos(phi), for irradiance 1.
+    /// The segment on which light on chord k reaches the floor. Its flux per length and phi is cos(phi).
     [[nodiscard]] Segment at(double phi) const {
         const double c = std::cos(phi), s = std::sin(phi);
         const double length = (std::min)(reach_ - 2 * k_ * c, 2 * c);
@@ -96,8 +96,8 @@ public:
     }
 
     /// @return  the flux that chord k brings to `r`
-    /// @param phis  sorted; all angles between which the same two of the rectangle's sides and the chord's ends limit
-    ///              the length inside. More do no harm.
+    /// @param phis  sorted; at least all angles at which another side of the rectangle or end of the chord begins to
+    ///              limit the length inside
     [[nodiscard]] double flux(const Rectangle& r, const std::vector<double>& phis) const {
         const auto density = [&](double phi) { return std::cos(phi) * at(phi).length_inside(r); };
         double sum = 0;
@@ -110,12 +110,12 @@ public:
 private:
     /// The least phi for which light can be reflected k times more.
     [[nodiscard]] double reaches(int k) const { return 2 * k > reach_ ? std::acos(reach_ / (2 * k)) : 0; }
-    /// The angle at which the hit after `hit` others is seen from the axis.
+    /// The angle, seen from the axis, of the hit after `hit` others.
     [[nodiscard]] static double position(double phi, int hit) { return phi + hit * (2 * phi + std::numbers::pi); }
     [[nodiscard]] double direction(double phi) const { return (k_ + 1) * (2 * phi + std::numbers::pi); }
 
-    /// The clipped lengths have poles where the chord is parallel to a side. Panels must be short near those, but not
-    /// near one in the interval or at its end: the length is finite there, so that pole is not this length's.
+    /// The clipped lengths have poles where the chord is parallel to a side, near which panels must be short. A pole in
+    /// the interval or at its ends does not belong to this length, which is finite there.
     template <class F>
     [[nodiscard]] double integrate_smooth(const F& f, double a, double b) const {
         const double spacing = 0.25 * std::numbers::pi / (k_ + 1), width = 0.1 / (k_ + 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The light that is reflected so often inside a half cylinder mirror that its chords are as good as arcs.
+/// @file  The light that is reflected so often inside a half cylinder mirror that its chords are nearly arcs.
 #pragma once
 
 #include "nephroid/quality/reference/quadrature.hpp"
@@ -11,25 +11,24 @@
 
 namespace nephroid::reference::detail {
 
-/// Light that meets the mirror first at phi near pi/2, close to (0, 1), and creeps along it.
+/// Light that first meets the mirror at phi near pi/2, close to (0, 1), and creeps along it.
 ///
 /// With q = cos^2(phi) / 2 and u in -1 to 1 along a chord, radius^2 = 1 - 2 q (1 - u^2), and the flux per dq and per
-/// length is 1 / sin(phi). It is taken as spread evenly over u and over an arc from phi clockwise: off by no more than
-/// q.
+/// length is 1 / sin(phi). It is assumed uniform over u and over an arc from phi clockwise, with an error of at most q.
 class Gallery {
 public:
-    /// @return  how many chords to take one by one, so that the others keep within 1/2000 of a pixel's side
-    ///          from the mirror; for sides below 1e-4 it would be too many, and stops at 1000
+    /// @return  how many chords to compute one by one, so that the others stay within 1/2000 of a pixel's side of the
+    ///          mirror; at most 1000, which sides below 1e-4 would exceed
     [[nodiscard]] static int chords_before(double reach, double side) {
         return static_cast<int>(std::ceil((std::clamp)(0.5 * reach / std::sqrt(2 * 0.0005 * side), 8.0, 1000.0)));
     }
 
-    /// @param chords  this many at least follow on each other, >= 1
+    /// @param chords  the least number of chords that light follows to count here, >= 1
     Gallery(double reach, int chords) : reach_(reach), cos_first_(0.5 * reach / chords) {}
 
-    [[nodiscard]] double first() const { return std::acos(cos_first_); } ///< the least phi of such light
+    [[nodiscard]] double first() const { return std::acos(cos_first_); } ///< the least phi that counts here
 
-    /// @return  the flux that such light brings to `r`
+    /// @return  the flux that this light brings to `r`
     [[nodiscard]] double flux(const Rectangle& r) const {
         const double depth = 0.5 * cos_first_ * cos_first_; // the greatest q
         const double x_far = (std::fmax)(std::abs(r.x0), std::abs(r.x1)),
@@ -50,10 +49,10 @@ public:
     }
 
 private:
-    /// The angle within the rectangle of an arc about the axis from `begin` to `end`, radians from the +x axis, 0 to
-    /// pi/2.
+    /// The angle of the part inside the rectangle of an arc about the axis, from `begin` to `end`, radians from the +x
+    /// axis, 0 to pi/2.
     [[nodiscard]] static double arc(double radius, double begin, double end, const Rectangle& r) {
-        // Above the x axis and right of the y axis each side cuts the arc once at the most.
+        // In this quadrant each side crosses the arc once at most.
         const auto angle = [radius](double x) { return std::acos((std::clamp)(x / radius, -1.0, 1.0)); };
         const double low = (std::max)({begin, angle(r.x1), 0.5 * std::numbers::pi - angle(r.y0)});
         const double high = (std::min)({end, angle(r.x0), 0.5 * std::numbers::pi - angle(r.y1)});

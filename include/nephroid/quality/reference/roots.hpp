@@ -12,8 +12,8 @@ namespace nephroid::reference::detail {
 
 /// Finds the root between `a` and `b`, where `f` changes its sign from `fa` to `fb`, to about the last bit.
 ///
-/// Inverse quadratic interpolation where it is safe, bisection elsewhere.
-/// If the signs agree, the end with the smaller |f| comes back.
+/// It interpolates by an inverse quadratic where that is safe, and bisects elsewhere. If the signs agree, it returns
+/// the end with the smaller |f|.
 /// Source: Chandrupatla 1997, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear
 /// function".
 template <class F>
@@ -54,9 +54,9 @@ template <class F>
 
 /// Appends every root of `f` in [a, b] to `roots`, in increasing order.
 ///
-/// Cuts the interval until either no root fits under the bound on the curvature, or `f` is monotonic.
+/// Bisects the interval until the bound on the curvature excludes a root, or `f` is monotonic.
 /// @param curvature  a bound on |f''| over [a, b]
-/// Two roots closer than 1e-10 may be missed, or come back as one.
+/// Two roots closer than 1e-10 may be missed, or be found as one.
 template <class F>
 void find_roots(const F& f, double a, double b, double fa, double fb, double curvature, std::vector<double>& roots) {
     const double h = b - a;

@@ -2,7 +2,7 @@
 /// @file  The exact caustic of a sinusoidal water wave on the floor below it.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/quality/reference/film.hpp"
 #include "nephroid/quality/reference/fresnel.hpp"
 #include "nephroid/quality/reference/quadrature.hpp"
@@ -17,7 +17,7 @@
 
 namespace nephroid::reference {
 
-/// Water of index 1.33 under the surface z = 1 + amplitude sin(2 pi (2x + y)), lit along -z with irradiance 1 on
+/// Water of index 1.33 below the surface z = 1 + amplitude sin(2 pi (2x + y)), lit along -z with irradiance 1 on
 /// horizontal planes. The pattern on the floor z = 0 has period 1 in x and in y.
 struct Wave {
     double amplitude = 0.04; ///< world units, 0 to 0.1. 0.04 folds ("focused"), 0.012 does not ("prefocal")
@@ -28,12 +28,12 @@ namespace detail {
 
 inline constexpr double wave_index = 1.33;
 
-/// All that happens depends on t = 2x + y where the light enters; it lands where 2x + y = landing(t).
+/// The map from t = 2x + y where light enters the water to 2x + y = landing(t) where it lands; nothing else matters.
 class WaveMap {
 public:
     explicit WaveMap(const Wave& wave) : wave_(wave), breaks_{0.0} {
         const auto slope = [this](double t) { return landing_slope(t); };
-        constexpr int cells = 1024; // a fold and its counterpart closer than this are no fold worth the name
+        constexpr int cells = 1024; // a pair of folds closer than one cell is neglected
         for (int i = 0; i < cells; ++i) {
             const double a = static_cast<double>(i) / cells, b = static_cast<double>(i + 1) / cells;
             if ((slope(a) < 0) != (slope(b) < 0))
@@ -58,7 +58,7 @@ public:
         return 1 + at.tilt * at.tan_turn + root5 * at.height * d_tan_turn;
     }
 
-    /// The part of the light that passes the surface.
+    /// The fraction of the light that passes the surface.
     [[nodiscard]] double transmitted(double t) const {
         if (!wave_.fresnel)
             return 1;
@@ -66,8 +66,8 @@ public:
         return transmittance(std::abs(tilt) / std::sqrt(1 + tilt * tilt), wave_index);
     }
 
-    /// The irradiance averaged over a pixel with its least 2x + y at `w`; `a` and `b` are by how much
-    /// 2x + y grows along its two sides. Over the pixel 2x + y has a trapezoidal density; its corners are the knots.
+    /// The irradiance averaged over a pixel whose least 2x + y is `w`; 2x + y grows by `a` and `b` along its two sides.
+    /// Over the pixel 2x + y has a trapezoidal density, whose corners are the knots.
     [[nodiscard]] double pixel(double w, double a, double b) const {
         const std::array<double, 4> knots{w, w + (std::min)(a, b), w + (std::max)(a, b), w + a + b};
         const auto [lowest, highest] = std::minmax_element(landings_.begin(), landings_.end());
@@ -94,7 +94,7 @@ private:
         return {1 + wave_.amplitude * std::sin(phase), tilt, (tilt - tan_out) / (1 + tilt * tan_out)};
     }
 
-    /// What enters in one monotonic piece of the map and lands in the pixel, times the pixel's a * b.
+    /// The flux that enters in one monotonic piece of the map and lands in the pixel, times the pixel's a * b.
     [[nodiscard]] double from_piece(std::size_t piece, double period, const std::array<double, 4>& knots) const {
         const double low = (std::min)(landings_[piece], landings_[piece + 1]) + period;
         const double high = (std::max)(landings_[piece], landings_[piece + 1]) + period;
@@ -132,7 +132,7 @@ inline void check(const Wave& wave) {
 
 } // namespace detail
 
-/// @return  the mean irradiance on the floor: the mean transmittance of the surface, 1 without Fresnel loss.
+/// The mean irradiance on the floor: the mean transmittance of the surface, 1 without Fresnel loss.
 /// Throws `std::invalid_argument` for an amplitude out of range.
 [[nodiscard]] inline double wave_mean(const Wave& wave) {
     detail::check(wave);
@@ -142,7 +142,7 @@ inline void check(const Wave& wave) {
 
 /// Computes the caustic on the floor below a wave.
 ///
-/// @param film     any rectangle; a pixel costs more as it covers more periods
+/// @param film      any rectangle; a pixel that covers more periods costs more
 /// @param executor  who runs the work; the result does not depend on it, bit for bit
 /// @return  irradiances averaged over the pixels, each to about 1e-12 of itself (1e-11 for 4096 pixels per unit)
 /// Throws `std::invalid_argument` if the amplitude or the film is out of range.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Which way photons in the same place part.
+/// @file  In which direction photons in the same place move apart.
 #pragma once
 
 #include "nephroid/sequence/hash.hpp"
@@ -10,11 +10,12 @@
 
 namespace nephroid::detail {
 
-/// A unit vector in the tangent plane of the photon that comes first, for one photon of a pair and its opposite for the
-/// other: eq. 1 of Spencer and Jones 2009 has a size where two photons coincide, r τ, but no direction. It depends on
-/// the photons' indices alone.
+/// A unit vector in the tangent plane for one photon of a pair in the same place, and its opposite for the other.
+///
+/// Where two photons coincide, eq. 1 of Spencer and Jones 2009 gives the force a size, r τ, but no direction. This one
+/// is random, and depends on the photons' indices alone.
 template <class Cloud>
-[[nodiscard]] typename Cloud::vector parting(const Cloud& cloud, std::size_t slot, std::size_t other) {
+[[nodiscard]] typename Cloud::vector separation_direction(const Cloud& cloud, std::size_t slot, std::size_t other) {
     using V = typename Cloud::vector;
     using T = scalar_t<V>;
     const std::uint32_t i = cloud.tree().index(slot), j = cloud.tree().index(other);
