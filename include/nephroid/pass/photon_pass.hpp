@@ -4,7 +4,7 @@
 
 #include "nephroid/emission/spread.hpp"
 #include "nephroid/footprint/smoothing.hpp"
-#include "nephroid/transport/walk.hpp"
+#include "nephroid/transport/walk_limits.hpp"
 #include "nephroid/vector/error.hpp"
 #include "nephroid/vector/text.hpp"
 

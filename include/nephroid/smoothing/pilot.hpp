@@ -8,6 +8,7 @@
 #include "nephroid/sequence/sequence.hpp"
 #include "nephroid/smoothing/second_order/second_order.hpp"
 #include "nephroid/transport/trail.hpp"
+#include "nephroid/transport/walk.hpp"
 
 #include <algorithm>
 #include <cassert>
