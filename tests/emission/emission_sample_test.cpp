@@ -90,8 +90,7 @@ TEST_CASE("emission sample: a choice among lights is no coordinate of the light'
     CHECK(recorder.sample().at[1] == 0.75);
 }
 
-TEST_CASE_TEMPLATE("emission sample: lights emit the same bits and say where in their domain", T, float,
-                   double) {
+TEST_CASE_TEMPLATE("emission sample: lights emit the same bits and say where in their domain", T, float, double) {
     const HaltonSequence sequence(3);
     for (std::uint64_t i = 0; i < 100; ++i) {
         const EmissionSample by_point = sample_of<T>(point<T>(), i);
