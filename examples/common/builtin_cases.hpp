@@ -33,6 +33,7 @@ class RingBeam {
 public:
     using vector = Vec3<T>;
     using flux_type = F;
+    static constexpr EmissionDomain domain{.coordinates = 2};
 
     struct Options {
         T elevation;  ///< of the sun, radians

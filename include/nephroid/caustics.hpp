@@ -12,6 +12,7 @@
 #include "nephroid/smoothing/pilot.hpp"
 #include "nephroid/smoothing/second_order/curved_footprints.hpp"
 #include "nephroid/splat/photon_splatter.hpp"
+#include "nephroid/transport/walk.hpp"
 
 #include <algorithm>
 #include <array>

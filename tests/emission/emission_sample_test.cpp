@@ -45,53 +45,60 @@ template <class T, class L>
     const Spread<T> spread{T(1000), T(2)};
     Sampler<HaltonSequence> plain(sequence, i), recorded(sequence, i);
     const auto expected = light.emit(plain, spread);
-    RecordingSource<Sampler<HaltonSequence>> recorder(recorded);
+    RecordingSource<Sampler<HaltonSequence>> recorder(recorded, coordinates_of<L>);
     const auto photon = light.emit(recorder, spread);
     CHECK(std::memcmp(&photon, &expected, sizeof photon) == 0);
     CHECK(recorded.dimension() == plain.dimension()); // and the walk goes on with the same numbers
+    CHECK(recorder.is_complete());
+    Sampler<HaltonSequence> drawn(sequence, i); // and without emitting the photon
+    const EmissionSample point = draw_point(light, drawn);
+    CHECK(point.light == recorder.sample().light);
+    CHECK(point.coordinates == recorder.sample().coordinates);
+    CHECK(point.at == recorder.sample().at);
+    CHECK(point.then == recorder.sample().then);
     return recorder.sample();
 }
 
 } // namespace
 
-TEST_CASE("emission sample: the first four numbers are kept and all are counted") {
+TEST_CASE("emission sample: as many numbers are kept as the domain has coordinates") {
     GivenSamples given({0.25, 0.5, 0.75, 0.125, 0.625});
-    RecordingSource<GivenSamples> recorder(given);
-    CHECK(recorder.sample().dimensions == 0);
+    RecordingSource<GivenSamples> recorder(given, 4);
+    CHECK(!recorder.is_complete());
     for (const double expected : {0.25, 0.5, 0.75, 0.125, 0.625})
         CHECK(recorder.next<double>() == expected);
     CHECK(recorder.sample().at[0] == 0.25);
     CHECK(recorder.sample().at[1] == 0.5);
     CHECK(recorder.sample().then[0] == 0.75);
     CHECK(recorder.sample().then[1] == 0.125);
-    CHECK(recorder.sample().dimensions == 5);
+    CHECK(recorder.sample().coordinates == 4);
+    CHECK(recorder.is_complete());
     CHECK(recorder.sample().light == 0);
     CHECK(given.drawn() == 5);
 }
 
-TEST_CASE("emission sample: a choice among lights does not count as a number of the light's own") {
+TEST_CASE("emission sample: a choice among lights is no coordinate of the light's own") {
     GivenSamples given({0.25, 0.5, 0.75});
-    RecordingSource<GivenSamples> recorder(given);
+    RecordingSource<GivenSamples> recorder(given, 0);
     (void)recorder.next<double>();
-    recorder.chose(5);
+    recorder.chose(5, 2);
     (void)recorder.next<float>();
     (void)recorder.next<float>();
     CHECK(recorder.sample().light == 5);
-    CHECK(recorder.sample().dimensions == 2);
+    CHECK(recorder.sample().coordinates == 2);
     CHECK(recorder.sample().at[0] == 0.5);
     CHECK(recorder.sample().at[1] == 0.75);
 }
 
-TEST_CASE_TEMPLATE("emission sample: lights emit the same bits and say how many numbers make a photon", T, float,
-                   double) {
+TEST_CASE_TEMPLATE("emission sample: lights emit the same bits and say where in their domain", T, float, double) {
     const HaltonSequence sequence(3);
     for (std::uint64_t i = 0; i < 100; ++i) {
         const EmissionSample by_point = sample_of<T>(point<T>(), i);
-        CHECK(by_point.dimensions == 2);
+        CHECK(by_point.coordinates == 2);
         CHECK(by_point.at[0] == double(sequence.sample<T>(i, 0)));
         CHECK(by_point.at[1] == double(sequence.sample<T>(i, 1)));
-        CHECK(sample_of<T>(sun<T>(), i).dimensions == 2);
-        CHECK(sample_of<T>(disk<T>(), i).dimensions == 4); // a place and a direction
+        CHECK(sample_of<T>(sun<T>(), i).coordinates == 2);
+        CHECK(sample_of<T>(disk<T>(), i).coordinates == 4); // a place and a direction
     }
 }
 
@@ -103,10 +110,10 @@ TEST_CASE_TEMPLATE("emission sample: of several lights the one that was chosen i
     for (std::uint64_t i = 0; i < 200; ++i) {
         const EmissionSample only = sample_of<T>(alone, i);
         CHECK(only.light == 0);
-        CHECK(only.dimensions == 2);
+        CHECK(only.coordinates == 2);
         const EmissionSample sample = sample_of<T>(lights, i);
         chosen.insert(sample.light);
-        CHECK(sample.dimensions == (sample.light == 1 ? 4 : 2));
+        CHECK(sample.coordinates == (sample.light == 1 ? 4 : 2));
         CHECK(sample.at[0] == double(sequence.sample<T>(i, 1))); // number 0 chose the light
         CHECK(sample.at[1] == double(sequence.sample<T>(i, 2)));
         // The choice itself, by the powers.
@@ -136,9 +143,9 @@ TEST_CASE("emission sample: lights of sets within a set keep numbers of their ow
     std::set<std::uint32_t> numbers;
     for (std::uint64_t i = 0; i < 500; ++i) {
         Sampler<HaltonSequence> sampler(sequence, i);
-        RecordingSource<Sampler<HaltonSequence>> recorder(sampler);
+        RecordingSource<Sampler<HaltonSequence>> recorder(sampler, coordinates_of<LightSet<Inner, Point>>);
         const auto photon = lights.emit(recorder, Spread<double>{500, 1});
-        CHECK(recorder.sample().dimensions == 2);
+        CHECK(recorder.sample().coordinates == 2);
         pairs.insert({photon.position.x, recorder.sample().light});
         places.insert(photon.position.x);
         numbers.insert(recorder.sample().light);

@@ -10,6 +10,7 @@ using Colour = float;
 struct MyLaser { // emission/light.hpp
     using vector = Vec3;
     using flux_type = Colour;
+    static constexpr nephroid::EmissionDomain domain{.coordinates = 2, .kinks = {nephroid::Kinks::diagonals}};
     Vec3 position, direction;
     float radius;
     Colour flux;

@@ -81,9 +81,9 @@ Vec<T> spawned(const H& hit, const Vec<T>& direction) {
     } space;
     Statistics account;
     nephroid::Photon<Vec<T>, T> photon{hit.position, direction, T(1), {}};
-    nephroid::detail::Walk<Space, Vec<T>, T, 2> walk(space, photon, account);
-    walk.leave(hit);
-    return walk.photon().position;
+    nephroid::detail::PhotonSteps<Space, Vec<T>, T, 2> steps(space, photon, account);
+    steps.leave(hit);
+    return steps.photon().position;
 }
 
 /// The errors found over many rays.

@@ -36,7 +36,7 @@ QuadLight<Vec, double> panel() {
 template <class L, class Sequence>
 EmissionSample sample_of(const L& light, const Sequence& sequence, std::uint64_t index) {
     Sampler<Sequence> sampler(sequence, index);
-    RecordingSource<Sampler<Sequence>> recorder(sampler);
+    RecordingSource<Sampler<Sequence>> recorder(sampler, coordinates_of<L>);
     (void)light.emit(recorder, Spread<double>{1, 1});
     return recorder.sample();
 }

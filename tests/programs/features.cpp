@@ -200,6 +200,7 @@ const Light light({nephroid::DirectionalLight<V, F>({{0, 0, -1}, one, target}),
 struct Light {
     using vector = V;
     using flux_type = F;
+    static constexpr nephroid::EmissionDomain domain = nephroid::DirectionalLight<V, F>::domain;
     nephroid::DirectionalLight<V, F> sun{{{0, 0, -1}, one, target}};
 
     template <class S>

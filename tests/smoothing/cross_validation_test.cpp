@@ -47,18 +47,18 @@ template <class V>
                                    .patch = BoundingSphere<V>{make_vector<V>(T(0), T(0), T(1.5)), T(1.25)}});
 }
 
-/// A light of the caller's own: it draws a number more than it needs, first, so that nobody knows its photons'
-/// neighbours.
+/// A light of the caller's own that declares no domain: nobody knows its photons' neighbours.
 template <class L>
-struct Undescribed : L {
-    static constexpr std::uint32_t dimensions = L::dimensions + 1;
+struct Undescribed {
+    using vector = typename L::vector;
+    using flux_type = typename L::flux_type;
+    L light;
 
     template <class S>
-    [[nodiscard]] auto emit(S& samples, const Spread<scalar_t<typename L::vector>>& spread) const {
-        auto photon = L::emit(samples, spread);
-        (void)samples.template next<double>();
-        return photon;
+    [[nodiscard]] auto emit(S& samples, const Spread<scalar_t<vector>>& spread) const {
+        return light.emit(samples, spread);
     }
+    [[nodiscard]] double power() const { return light.power(); }
 };
 
 template <class Policies, class L, class S, class E = SerialExecutor>

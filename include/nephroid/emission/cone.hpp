@@ -2,6 +2,7 @@
 /// @file  A cone of directions, and directions drawn uniformly from it.
 #pragma once
 
+#include "nephroid/emission/domain.hpp"
 #include "nephroid/emission/warp.hpp"
 
 namespace nephroid {
@@ -31,6 +32,19 @@ template <Vector3 V>
 [[nodiscard]] V direction_in(const Cone<V>& cone, const Frame<V>& frame, scalar_t<V> u1, scalar_t<V> u2) {
     return cone.is_everything() ? sphere_direction<V>(u1, u2)
                                 : cap_direction(cone.axis, frame, cone.height, concentric_disk(u1, u2));
+}
+
+/// How a pair of coordinates is mapped: its kinks, and what lies at its edges.
+struct EmissionPair {
+    Kinks kinks = Kinks::nowhere;
+    Edge edges = Edge::ends;
+};
+
+/// How `direction_in` maps the square to a cone.
+template <Vector3 V>
+[[nodiscard]] EmissionPair directions_of(const Cone<V>& cone) {
+    return cone.is_everything() ? EmissionPair{Kinks::octahedron, Edge::folds}
+                                : EmissionPair{Kinks::diagonals, Edge::ends};
 }
 
 } // namespace nephroid

@@ -2,11 +2,14 @@
 /// @file  What a light is: something that emits photons and knows about how much it emits.
 #pragma once
 
+#include "nephroid/emission/domain.hpp"
 #include "nephroid/emission/photon.hpp"
 #include "nephroid/emission/spread.hpp"
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 namespace nephroid {
 
@@ -50,11 +53,13 @@ concept EstimatesPower = requires(const L light) {
 /// - `vector` and `flux_type`
 /// - `emit(samples, spread) -> Photon`: one of `spread.photons` photons whose fluxes add up, on average, to the flux
 ///   that the light sends into the domain it samples. It draws the same number of samples each time, the position's
-///   first, and its maps from samples to positions and directions are continuous where they can be, for stratified
-///   sequences. The first two tangents are an aligned pair of orthogonal ones at emission (emission/aligned_basis.hpp);
-///   a light may add more. It does not throw; a photon's flux may be zero.
-/// - `dimensions`, optional: how many samples it draws, `static constexpr std::uint32_t`. Where the compiler knows, it
-///   compiles only what such a light needs. A light derived from one that draws another number says so anew.
+///   first. The first two tangents are an aligned pair of orthogonal ones at emission (emission/aligned_basis.hpp); a
+///   light may add more. It does not throw; a photon's flux may be zero.
+/// - `domain`, optional, `static constexpr EmissionDomain`: which of the samples place a photon in the light's domain,
+///   and which are extras (emission/domain.hpp). Methods that ask a photon's neighbours (second order, sheets) serve
+///   the lights that declare it, and no more is compiled than these need; photons of others are splatted alone.
+/// - `exact_domain() const -> EmissionDomain`, optional: the same with those kinks and edges that depend on the
+///   light's options
 /// - `power()`: an estimate of that flux, `flux_traits::power`'s unit. Photons are shared among lights by it, so it
 ///   may be zero only where the flux is.
 ///
@@ -62,6 +67,7 @@ concept EstimatesPower = requires(const L light) {
 /// struct MyLaser { // a light of the renderer's own: a beam of this radius
 ///     using vector = Vec3;
 ///     using flux_type = Colour;
+///     static constexpr nephroid::EmissionDomain domain{.coordinates = 2, .kinks = {nephroid::Kinks::diagonals}};
 ///     Vec3 position, direction; // direction is unit
 ///     float radius;
 ///     Colour flux;
@@ -71,8 +77,8 @@ concept EstimatesPower = requires(const L light) {
 ///         const float u1 = samples.template next<float>(), u2 = samples.template next<float>();
 ///         const auto disk = nephroid::concentric_disk(u1, u2);
 ///         const nephroid::Frame<Vec3> frame = nephroid::frame_about(direction);
-///         const float length = spread.length(nephroid::pi<float> * radius * radius); // the domain is the beam's
-///         section const Vec3 zero(0, 0, 0);
+///         const float length = spread.length(nephroid::pi<float> * radius * radius); // the beam's section
+///         const Vec3 zero(0, 0, 0);
 ///         return {position + radius * disk.x * frame.u + radius * disk.y * frame.v, direction,
 ///                 flux * (1 / spread.photons),
 ///                 {nephroid::Tangent<Vec3>{length * frame.u, zero}, nephroid::Tangent<Vec3>{length * frame.v, zero}}};
@@ -85,34 +91,67 @@ concept EstimatesPower = requires(const L light) {
 template <class L>
 concept Light = std::copyable<L> && detail::SaysWhatItEmits<L> && detail::EmitsPhotons<L> && detail::EstimatesPower<L>;
 
-/// How many samples a light may draw for a photon, as far as it tells the compiler. Two and four say which photons are
-/// neighbours (emission_sample.hpp).
+/// The photon that a light emits.
+template <class L>
+using emitted_t = std::remove_cvref_t<decltype(std::declval<const L&>().emit(
+    std::declval<detail::AnySampleSource&>(), std::declval<const Spread<scalar_t<typename L::vector>>&>()))>;
+
+namespace detail {
+template <class L>
+concept DeclaresDomain = requires {
+    { &L::domain } -> std::same_as<const EmissionDomain*>;
+    requires std::bool_constant<(L::domain.coordinates == 2 || L::domain.coordinates == 4)>::value;
+};
+
+template <class L>
+concept NamesDomain = requires(const L& light) {
+    { light.domain } -> std::convertible_to<EmissionDomain>;
+};
+} // namespace detail
+
+/// How many coordinates a light's domain has: 2 or 4, or 0 where it declares none, as a set of lights does.
+template <class L>
+inline constexpr std::uint32_t coordinates_of = [] {
+    if constexpr (detail::DeclaresDomain<L>)
+        return L::domain.coordinates;
+    else
+        return 0u;
+}();
+
+/// A light's domain, with the kinks and edges that follow from its options.
+template <class L>
+    requires detail::DeclaresDomain<L>
+[[nodiscard]] EmissionDomain domain_of(const L& light) {
+    if constexpr (requires { light.exact_domain(); })
+        return light.exact_domain();
+    else
+        return L::domain;
+}
+
+/// Which domains a light may emit from, as far as the compiler knows: a light of several may have all of them.
 struct EmissionDomains {
-    bool two = true, four = true, others = true;
+    bool two = false, four = false; ///< by the number of coordinates
+    bool others = false;            ///< lights that declare none
 
     [[nodiscard]] friend constexpr EmissionDomains operator|(EmissionDomains a, EmissionDomains b) {
         return {a.two || b.two, a.four || b.four, a.others || b.others};
     }
 };
 
-[[nodiscard]] constexpr bool may_draw(EmissionDomains domains, std::uint32_t dimensions) {
-    return dimensions == 2 ? domains.two : dimensions == 4 ? domains.four : domains.others;
+[[nodiscard]] constexpr bool may_emit_from(EmissionDomains domains, std::uint32_t coordinates) {
+    return coordinates == 2 ? domains.two : coordinates == 4 ? domains.four : domains.others;
 }
 
-/// Those of a light: by its `dimensions`, or, for a light of several, by its `domains`. Members of these names that
-/// mean something else are of another kind or type.
+/// Those of a light: by its `domain`, or, for a light of several, by its `domains`. A member of that name that means
+/// something else is of another kind or type.
 template <class L>
 inline constexpr EmissionDomains emission_domains = [] {
     if constexpr (requires {
                       { &L::domains } -> std::same_as<const EmissionDomains*>;
                   })
         return L::domains;
-    else if constexpr (requires {
-                           { &L::dimensions } -> std::same_as<const std::uint32_t*>;
-                       })
-        return EmissionDomains{L::dimensions == 2, L::dimensions == 4, L::dimensions != 2 && L::dimensions != 4};
     else
-        return EmissionDomains{};
+        return EmissionDomains{coordinates_of<L> == 2, coordinates_of<L> == 4, coordinates_of<L> == 0};
 }();
 
 namespace detail {
@@ -127,6 +166,17 @@ consteval bool explain_light() {
     static_assert(std::copyable<L>, "nephroid: a light must be copyable");
     return false;
 }
+
+template <class L>
+consteval bool explain_domain() {
+    static_assert(DeclaresDomain<L>, "nephroid: the light's `domain` must be a static constexpr EmissionDomain of 2 or "
+                                     "4 coordinates (emission/domain.hpp)");
+    return false;
+}
+
+/// A light without a domain, or one that declares it as it must be.
+template <class L>
+concept MustDeclareDomain = !NamesDomain<L> || DeclaresDomain<L> || explain_domain<L>();
 
 template <class L, class V, class F>
 concept EmitsFor = std::same_as<typename L::vector, V> && std::same_as<typename L::flux_type, F>;

@@ -2,11 +2,13 @@
 /// @file  Several lights as one: photons are shared among them by power.
 #pragma once
 
+#include "nephroid/emission/emission_sample.hpp"
 #include "nephroid/emission/light.hpp"
 #include "nephroid/vector/error.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <string>
 #include <type_traits>
@@ -16,17 +18,47 @@
 
 namespace nephroid {
 
+namespace detail {
+template <class First, class... Others>
+concept SameVectorAndFlux = (std::same_as<typename First::vector, typename Others::vector> && ...) &&
+                            (std::same_as<typename First::flux_type, typename Others::flux_type> && ...);
+
+template <class First, class... Others>
+concept SamePhotons = SameVectorAndFlux<First, Others...> &&(std::same_as<emitted_t<First>, emitted_t<Others>>&&...);
+
+template <class First, class... Others>
+consteval bool explain_set() {
+    if constexpr (!Light<First>)
+        explain_light<First>();
+    (void)(... && (Light<Others> || explain_light<Others>()));
+    if constexpr ((Light<First> && ... && Light<Others>)) {
+        constexpr bool same_flux = SameVectorAndFlux<First, Others...>;
+        static_assert(same_flux, "nephroid::LightSet: all lights of one set need the same `vector` and `flux_type`");
+        static_assert(!same_flux || SamePhotons<First, Others...>,
+                      "nephroid::LightSet: the photons of all lights of one set need the same number of tangents");
+    }
+    return false;
+}
+
+/// For lights that make one set, or an error that says why not.
+template <class First, class... Others>
+concept MustMakeSet = ((Light<First> && ... && Light<Others>)&&SamePhotons<First, Others...> &&
+                       (MustDeclareDomain<First> && ... && MustDeclareDomain<Others>)) ||
+                      explain_set<First, Others...>();
+} // namespace detail
+
 /// Lights of several types that emit the same photons. Itself a light.
 ///
 /// A sample chooses the light, with probability p in proportion to its power; it then emits as one of N p photons, so
 /// that fluxes and footprints are those that it would have with N p photons of its own. Draws one sample more than
-/// the light chosen, first; with a single light none.
-template <Light First, Light... Others>
-    requires(std::same_as<typename First::vector, typename Others::vector>&&...)
-&&(std::same_as<typename First::flux_type, typename Others::flux_type>&&...) class LightSet {
+/// the light chosen, first; with a single light none. Each light keeps its own domain and extras.
+template <class First, class... Others>
+    requires detail::MustMakeSet<First, Others...>
+class LightSet {
 public:
     using vector = typename First::vector;
     using flux_type = typename First::flux_type;
+    using photon_type = emitted_t<First>;
     using T = scalar_t<vector>;
     static constexpr EmissionDomains domains = (emission_domains<First> | ... | emission_domains<Others>);
     using AnyLight = std::variant<First, Others...>;
@@ -52,19 +84,27 @@ public:
 
     template <SampleSource<T> S>
         requires SampleSource<S, double>
-    [[nodiscard]] Photon<vector, flux_type> emit(S& samples, const Spread<T>& spread) const {
-        if (lights_.size() == 1)
-            return emit_from(0, samples, spread);
-        const double place = samples.template next<double>() * total_power_;
-        const auto found = std::upper_bound(power_up_to_.begin(), power_up_to_.end(), place);
-        const bool is_dark = found == power_up_to_.end(); // all are: each photon is the first one's, without flux
-        const std::size_t chosen = is_dark ? 0 : static_cast<std::size_t>(found - power_up_to_.begin());
-        if constexpr (requires { samples.chose(chosen); })
-            samples.chose(chosen);
-        if (is_dark)
-            return emit_from(0, samples, spread);
-        const T probability = static_cast<T>(power_[chosen] / total_power_);
-        return emit_from(chosen, samples, Spread<T>{spread.photons * probability, spread.smoothing});
+    [[nodiscard]] photon_type emit(S& samples, const Spread<T>& spread) const {
+        const Choice choice = choose(samples);
+        const Spread<T> own{spread.photons * choice.probability, spread.smoothing};
+        return std::visit(
+            [&](const auto& light) {
+                tell(samples, choice.light, light);
+                return light.emit(samples, own);
+            },
+            lights_[choice.light]);
+    }
+
+    /// Draws the choice and the chosen light's coordinates.
+    template <class S>
+    void draw_coordinates(S& samples) const {
+        const std::size_t chosen = choose(samples).light;
+        std::visit(
+            [&](const auto& light) {
+                tell(samples, chosen, light);
+                detail::draw_coordinates(light, samples);
+            },
+            lights_[chosen]);
     }
 
     /// The sum of the lights' powers.
@@ -73,9 +113,27 @@ public:
     [[nodiscard]] const std::vector<AnyLight>& lights() const { return lights_; }
 
 private:
+    struct Choice {
+        std::size_t light;
+        T probability;
+    };
+
     template <class S>
-    [[nodiscard]] Photon<vector, flux_type> emit_from(std::size_t i, S& samples, const Spread<T>& spread) const {
-        return std::visit([&](const auto& light) { return light.emit(samples, spread); }, lights_[i]);
+    [[nodiscard]] Choice choose(S& samples) const {
+        if (lights_.size() == 1)
+            return {0, T(1)};
+        const double at = samples.template next<double>() * total_power_;
+        const auto found = std::upper_bound(power_up_to_.begin(), power_up_to_.end(), at);
+        if (found == power_up_to_.end()) // all are dark: each photon is the first one's, without flux
+            return {0, T(1)};
+        const auto chosen = static_cast<std::size_t>(found - power_up_to_.begin());
+        return {chosen, static_cast<T>(power_[chosen] / total_power_)};
+    }
+
+    template <class S, class L>
+    static void tell(S& samples, std::size_t i, const L&) {
+        if constexpr (requires { samples.chose(i, coordinates_of<L>); })
+            samples.chose(i, coordinates_of<L>);
     }
 
     std::vector<AnyLight> lights_;

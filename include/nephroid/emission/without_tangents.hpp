@@ -10,6 +10,18 @@
 
 namespace nephroid {
 
+namespace detail {
+/// What a light says of its domain.
+template <class L>
+struct DomainLike {
+    static constexpr EmissionDomains domains = emission_domains<L>;
+};
+template <DeclaresDomain L>
+struct DomainLike<L> {
+    static constexpr EmissionDomain domain = L::domain;
+};
+} // namespace detail
+
 /// The same photons as the light's own, in position, direction and flux, bit for bit, but with N = 0 tangents, so that
 /// nothing is spent on carrying them along. Not a `Light`, which has at least two; what takes a `PhotonSource` takes
 /// it.
@@ -18,7 +30,7 @@ namespace nephroid {
 /// const auto traced = nephroid::trace_photons(scene, nephroid::WithoutTangents(light), pass, sequence, executor);
 /// ```
 template <Light L>
-class WithoutTangents {
+class WithoutTangents : public detail::DomainLike<L> {
 public:
     using vector = typename L::vector;
     using flux_type = typename L::flux_type;
@@ -30,6 +42,11 @@ public:
         const auto photon = light_.emit(samples, spread);
         return {photon.position, photon.direction, photon.flux, {}};
     }
+
+    [[nodiscard]] EmissionDomain exact_domain() const requires detail::DeclaresDomain<L> { return domain_of(light_); }
+    template <class S>
+        requires requires(const L& light, S& samples) { light.draw_coordinates(samples); }
+    void draw_coordinates(S& samples) const { light_.draw_coordinates(samples); }
 
     [[nodiscard]] double power() const { return double(light_.power()); }
     [[nodiscard]] const L& light() const { return light_; }
@@ -55,12 +72,12 @@ concept PhotonSource = Light<L> || detail::EmitsWithoutTangents<L>;
 namespace detail {
 /// How many tangents its photons have.
 template <class L>
-inline constexpr std::size_t tangent_count_of = std::remove_cvref_t<decltype(std::declval<const L&>().emit(
-    std::declval<AnySampleSource&>(), std::declval<const Spread<scalar_t<typename L::vector>>&>()))>::tangent_count;
+inline constexpr std::size_t tangent_count_of = emitted_t<L>::tangent_count;
 
 /// A source of photons for these sums, or an error that says why not.
 template <class L, class V, class F>
-concept MustEmit = (PhotonSource<L> || explain_light<L>()) && (EmitsFor<L, V, F> || explain_emission<L, V, F>());
+concept MustEmit = (PhotonSource<L> || explain_light<L>()) &&
+                   (EmitsFor<L, V, F> || explain_emission<L, V, F>()) && MustDeclareDomain<L>;
 } // namespace detail
 
 } // namespace nephroid

@@ -2,7 +2,8 @@
 /// @file  The photon map: stored photons, looked up by place [Jensen 1996].
 #pragma once
 
-#include "nephroid/transport/walk.hpp"
+#include "nephroid/transport/account.hpp"
+#include "nephroid/transport/deposit.hpp"
 #include "nephroid/tree/point_tree.hpp"
 
 #include <concepts>

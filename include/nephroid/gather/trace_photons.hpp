@@ -7,6 +7,7 @@
 #include "nephroid/pass/traced_batch.hpp"
 #include "nephroid/sequence/halton.hpp"
 #include "nephroid/sequence/sequence.hpp"
+#include "nephroid/transport/walk.hpp"
 
 #include <algorithm>
 #include <cstdint>

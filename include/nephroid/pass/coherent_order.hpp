@@ -27,7 +27,7 @@ namespace nephroid {
 /// point or directional light, 4 of each of an area light. Between the upper 8 and the lower 8, which tell 256 parts of
 /// the domain and the places in one apart, the last 16 bits of the light's number keep the photons of a light together.
 [[nodiscard]] constexpr std::uint32_t place_on_z_curve(const EmissionSample& sample) {
-    const bool is_area = sample.dimensions > 2;
+    const bool is_area = sample.coordinates > 2;
     const std::array<double, 4> coordinates = {sample.at[0], sample.at[1], sample.then[0], sample.then[1]};
     const std::size_t count = is_area ? 4 : 2;
     const unsigned bits = is_area ? 4 : 8;
@@ -52,7 +52,7 @@ struct PlacedPhoton {
 /// largest.
 class CoherentOrder {
 public:
-    /// @param light  as for `splat_caustics`; draws every photon's numbers here once more
+    /// @param light  as for `splat_caustics`; draws every photon's coordinates here once more
     /// @param first  index of the batch's first photon
     /// @param count  of photons, below 2^32
     /// @return  the photons first + number in the order in which they are best traced, those in one place in the order
@@ -94,13 +94,10 @@ private:
 
     template <class L, class Sequence>
     void place(const L& light, const Sequence& sequence, std::uint64_t first, std::size_t task) {
-        using T = scalar_t<typename L::vector>;
         std::size_t number = task * photons_per_task;
         for (PlacedPhoton& p : photons_of(task)) {
             Sampler<Sequence> sampler(sequence, first + number);
-            RecordingSource<Sampler<Sequence>> recorder(sampler);
-            (void)light.emit(recorder, Spread<T>{T(1), T(1)});
-            p = {place_on_z_curve(recorder.sample()), static_cast<std::uint32_t>(number++)};
+            p = {place_on_z_curve(draw_point(light, sampler)), static_cast<std::uint32_t>(number++)};
         }
     }
 

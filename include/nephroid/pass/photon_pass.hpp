@@ -4,7 +4,7 @@
 
 #include "nephroid/emission/spread.hpp"
 #include "nephroid/footprint/smoothing.hpp"
-#include "nephroid/transport/walk.hpp"
+#include "nephroid/transport/walk_limits.hpp"
 #include "nephroid/vector/error.hpp"
 #include "nephroid/vector/text.hpp"
 
@@ -24,7 +24,7 @@ struct PhotonPass {
                              ///< part of a picture's photons (a machine's share, say) gives the whole number here.
     /// s > 0: at emission the footprints cover the light's domain s² times. Nothing: chosen for each photon from those
     /// around it (smoothing/second_order/), where they say nothing `SmoothingBounds::least`, or `default_smoothing` for
-    /// an area light; one for all photons of lights sampled with neither two numbers nor four
+    /// an area light; one for all photons of lights that declare no domain
     /// (smoothing/cross_validation.hpp); `default_smoothing` to first order.
     std::optional<double> smoothing{};
     WalkLimits limits{};

@@ -8,6 +8,7 @@
 #include "nephroid/sequence/sequence.hpp"
 #include "nephroid/smoothing/second_order/second_order.hpp"
 #include "nephroid/transport/trail.hpp"
+#include "nephroid/transport/walk.hpp"
 
 #include <algorithm>
 #include <cassert>
@@ -28,9 +29,9 @@ template <class S, class L, class Sequence>
     using T = scalar_t<typename L::vector>;
     const Spread<T> spread{T(pass.total == 0 ? pass.count : pass.total), T(1)};
     Sampler<Sequence> sampler(sequence, index);
-    RecordingSource<Sampler<Sequence>> recorder(sampler);
+    RecordingSource<Sampler<Sequence>> recorder(sampler, coordinates_of<L>);
     const auto emitted = light.emit(recorder, spread);
-    assert(may_draw(emission_domains<L>, recorder.sample().dimensions)); // else the light's own `dimensions` are wrong
+    assert(recorder.is_complete()); // else the light draws fewer numbers than its `domain` has coordinates
     PathSignature signature;
     const auto deposit = walk(scene, emitted, sampler, pass.limits, account, signature);
     return {recorder.sample(), EmissionFrame(emitted), signature.value(), deposit};
@@ -69,7 +70,7 @@ template <class S, class L, class Sequence, class E>
 
 /// What the pilot photons say of the footprints of the whole pass.
 ///
-/// @tparam domains       what the lights may draw
+/// @tparam domains       what the lights may emit from
 /// @param largest_reach  of a footprint, world units: the map's diagonal
 template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class Policies, class E>
 [[nodiscard]] SecondOrderFootprints<V, domains> footprints_from(const Pilot<TracedPhoton<V, F, N>>& pilot,

@@ -6,7 +6,8 @@
 #include "nephroid/footprint/policies.hpp"
 #include "nephroid/footprint/smoothing.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
-#include "nephroid/transport/walk.hpp"
+#include "nephroid/transport/account.hpp"
+#include "nephroid/transport/deposit.hpp"
 #include "nephroid/vector/in_place.hpp"
 
 #include <algorithm>

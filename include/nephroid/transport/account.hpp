@@ -53,8 +53,10 @@ struct Tally {
 struct Statistics {
     Tally emitted;
     std::array<Tally, fate_count> fates{};
-    std::uint64_t rays = 0;               ///< traced
-    std::uint64_t specular_events = 0;    ///< reflections and refractions
+    std::uint64_t rays = 0;            ///< traced
+    std::uint64_t specular_events = 0; ///< reflections and refractions
+    std::uint64_t branches = 0;        ///< ways more than one for each photon, where all ways are followed: of so many
+                                       ///< photons more than were emitted the fates tell
     std::uint64_t corrected_normals = 0;  ///< events that used the geometric normal, as the shading one sent the ray
                                           ///< through the wrong side of the surface
     std::uint64_t bounded_shifts = 0;     ///< of second-order splats, shortened
@@ -91,6 +93,7 @@ struct Statistics {
             fates[i] += other.fates[i];
         rays += other.rays;
         specular_events += other.specular_events;
+        branches += other.branches;
         corrected_normals += other.corrected_normals;
         bounded_shifts += other.bounded_shifts;
         bounded_footprints += other.bounded_footprints;

@@ -5,6 +5,11 @@
 #include "nephroid/transport/hit.hpp"
 #include "nephroid/transport/scattering.hpp"
 
+#include <concepts>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
 namespace nephroid {
 
 /// `scene.intersect(origin, direction, t_min, t_max)`: the nearest hit with t_min < distance < t_max, as anything
@@ -29,8 +34,10 @@ concept SpawnsRays = Intersects<S, V> && requires(const S& scene, const hit_t<S,
 template <class S, class V>
 concept KeepsRaysOffSurfaces = SpawnsRays<S, V> || HasPositionError<hit_t<S, V>, V>;
 
+/// Enough for photons without tangents; for others hits also say how their normals change (`Hit`).
 template <class S, class V>
-concept RayTracer = Intersects<S, V> && Hit<hit_t<S, V>, V> && KeepsRaysOffSurfaces<S, V>;
+concept RayTracer =
+    Intersects<S, V> && HasDistance<hit_t<S, V>, V> && HasGeometricNormal<hit_t<S, V>, V> && KeepsRaysOffSurfaces<S, V>;
 
 /// `scene.scatter(hit, direction, sampler)`: what the surface does with a photon that arrives along the unit
 /// direction, a `Scattering` or a type like it. `sampler.template next<T>()` draws the numbers for its choices.
@@ -42,6 +49,18 @@ concept Scatters = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>
         { scene.scatter(hit, v, sampler).eta } -> std::convertible_to<scalar_t<V>>;
     };
 };
+
+namespace detail {
+/// The third parameter of a member function.
+template <class Result, class S, class A, class B, class C>
+C third_parameter(Result (S::*)(A, B, C) const);
+
+/// `scatter` takes its sampler as a const reference, which gives no numbers.
+template <class S, class Sampler>
+concept DrawsFromConst = requires {
+    { third_parameter(&S::template scatter<Sampler>) } -> std::same_as<const Sampler&>;
+};
+} // namespace detail
 
 /// All that a photon's walk needs. One object: a renderer's scene, or a small struct that points at it.
 ///
@@ -62,8 +81,11 @@ concept Scatters = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>
 ///     }
 /// };
 /// ```
-template <class S, class V, class Sampler>
-concept Scene = RayTracer<S, V> && Scatters<S, V, Sampler>;
+///
+/// @tparam N  tangents of the photons: those without ask no `curvature` of a hit
+template <class S, class V, class Sampler, std::size_t N = 2>
+concept Scene = RayTracer<S, V> && Scatters<S, V, Sampler> &&
+    (N == 0 || Hit<hit_t<S, V>, V>)&&!detail::DrawsFromConst<S, Sampler>;
 
 /// Optional: `typename S::medium` is what a photon carries to know what it flies through (a value-initialised one
 /// where it is emitted), and `scene.transmittance(medium, distance)` the share of flux that passes. Scenes without
@@ -75,7 +97,7 @@ concept Absorbs = requires(const S& scene, const typename S::medium& medium, sca
 
 namespace detail {
 /// What a scene lacks, as the first line of the compiler's message.
-template <class S, class V, class Sampler>
+template <class S, class V, class Sampler, std::size_t N>
 consteval bool explain_scene() {
     static_assert(Intersects<S, V>, "nephroid: the scene lacks intersect(origin, direction, t_min, t_max) const -> an "
                                     "optional hit (transport/scene.hpp)");
@@ -84,7 +106,7 @@ consteval bool explain_scene() {
         static_assert(HasDistance<H, V>, "nephroid: the scene's hit lacks `distance` (transport/hit.hpp)");
         static_assert(HasGeometricNormal<H, V>,
                       "nephroid: the scene's hit lacks `geometric_normal` (transport/hit.hpp)");
-        static_assert(SaysHowItsNormalChanges<H, V>,
+        static_assert(N == 0 || SaysHowItsNormalChanges<H, V>,
                       "nephroid: the scene's hit lacks `curvature`, which says how its normal changes; "
                       "nephroid::Flat is the answer for planes alone (differential/curvature.hpp)");
         static_assert(KeepsRaysOffSurfaces<S, V>, "nephroid: the scene's hit lacks `position_error`, or the scene "
@@ -93,13 +115,29 @@ consteval bool explain_scene() {
             static_assert(Scatters<S, V, Sampler>,
                           "nephroid: the scene lacks scatter(hit, direction, sampler) const -> event, "
                           "weight, eta (transport/scattering.hpp)");
+        static_assert(!DrawsFromConst<S, Sampler>,
+                      "nephroid: the scene's scatter takes its sampler as const, and so can draw no numbers from it; "
+                      "take it as `auto& random`");
     }
     return false;
 }
 
 /// For functions without an overload, where a wrong type can only be a mistake: Scene, or an error that says why not.
-template <class S, class V, class Sampler>
-concept MustBeScene = Scene<S, V, Sampler> || explain_scene<S, V, Sampler>();
+template <class S, class V, class Sampler, std::size_t N = 2>
+concept MustBeScene = Scene<S, V, Sampler, N> || explain_scene<S, V, Sampler, N>();
+
+/// Nothing is flown through: what a scene without absorption carries.
+struct NoMedium {};
+
+template <class S, class V>
+struct medium_of {
+    using type = NoMedium;
+};
+template <class S, class V>
+    requires Absorbs<S, V>
+struct medium_of<S, V> {
+    using type = typename S::medium;
+};
 } // namespace detail
 
 } // namespace nephroid

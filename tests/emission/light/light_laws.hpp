@@ -90,8 +90,8 @@ void check_light_laws(const L& light, std::size_t draws) {
         GivenSamples samples(values), again(values), scaled(values);
         const auto photon = light.emit(samples, Spread<T>{1000, 2});
         CHECK(samples.drawn() == draws);
-        if constexpr (requires { L::dimensions; })
-            CHECK(samples.drawn() == L::dimensions);
+        if constexpr (coordinates_of<L> != 0)
+            CHECK(samples.drawn() == L::domain.coordinates + L::domain.extra_count());
 
         CHECK(all_finite(photon.position));
         CHECK(std::abs(length(photon.direction) - 1) <= 16 * epsilon);

@@ -239,7 +239,7 @@ TEST_CASE("area field: photons that it knows nothing of get the default smoothin
     (void)footprints.apply(known);
     CHECK(known.deposit->position != photons[500].deposit->position);
     stray.signature = 99;
-    three.sample.dimensions = 3;
+    three.sample.coordinates = 3;
     flat.frame = EmissionFrame(Photon<D, double>{{0, 0, 1}, {0, 0, -1}, 1, {}});
     for (AreaPhoton* photon : {&stray, &three, &flat}) {
         CHECK(!footprints.apply(*photon));

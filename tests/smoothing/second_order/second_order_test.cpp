@@ -306,7 +306,7 @@ TEST_CASE("second order: photons that the field knows nothing of get a smoothing
     of_another_light.sample.light = 3;
     check(chosen, of_another_light, SmoothingBounds{}.least);
     MapPhoton of_an_area = known[500];
-    of_an_area.sample.dimensions = 4;
+    of_an_area.sample.coordinates = 4;
     check(chosen, of_an_area, default_smoothing);
     check(given, of_an_area, 11);
     // Fewer than four cells' photons: no field.

@@ -74,7 +74,30 @@ public:
         return flux_traits<F>::power(static_cast<F>(radiance_ * (area * (sum / T(n * n)))));
     }
 
+    /// The domain of a light whose points lie within a sphere.
+    ///
+    /// @param positions  how its positions are mapped
+    [[nodiscard]] EmissionDomain domain(const EmissionPair& positions, const V& center, T radius) const {
+        // Where some points aim and others do not the map jumps.
+        const bool is_smooth = !target_ || aims_everywhere(center, radius) || aims_nowhere(center, radius);
+        return {.coordinates = 4,
+                .kinks = {is_smooth ? positions.kinks : Kinks::unknown, Kinks::diagonals},
+                .edges = {positions.edges, positions.edges}};
+    }
+
+    [[nodiscard]] bool is_aimed() const { return target_.has_value(); }
+    /// Whether all points of a sphere send their photons into the cone towards the target.
+    [[nodiscard]] bool aims_everywhere(const V& center, T radius) const {
+        return target_ && length(V(target_->center - center)) - radius > T(1.001) * reach();
+    }
+
 private:
+    /// As far from the target's centre a point aims at it: the sphere fills half a hemisphere, 1 − cos = ½.
+    [[nodiscard]] T reach() const { return target_->radius / sqrt(T(0.75)); }
+    [[nodiscard]] bool aims_nowhere(const V& center, T radius) const {
+        return length(V(target_->center - center)) + radius < T(0.999) * reach();
+    }
+
     [[nodiscard]] std::optional<Cone<V>> useful_cone(const V& position) const {
         if (!target_)
             return std::nullopt;

@@ -22,7 +22,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
-    static constexpr std::uint32_t dimensions = 2;
+    static constexpr EmissionDomain domain{.coordinates = 2};
 
     struct Options {
         V direction;  ///< the way the light goes, any length but zero
@@ -53,6 +53,10 @@ public:
                 direction_,
                 static_cast<F>(irradiance_ * (area_ * cosine_ / spread.photons)),
                 {Tangent<V>{d_length * basis_.u, zero}, Tangent<V>{d_length * basis_.v, zero}}};
+    }
+
+    [[nodiscard]] EmissionDomain exact_domain() const {
+        return {.coordinates = 2, .kinks = {is_disk_ ? Kinks::diagonals : Kinks::nowhere}};
     }
 
     /// Exact: irradiance times the patch's area as the beam sees it.

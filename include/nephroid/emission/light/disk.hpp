@@ -15,7 +15,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
-    static constexpr std::uint32_t dimensions = 4;
+    static constexpr EmissionDomain domain{.coordinates = 4};
 
     struct Options {
         V center;
@@ -36,6 +36,10 @@ public:
         const T u3 = samples.template next<T>();
         const T u4 = samples.template next<T>();
         return emission_.emit(point(u1, u2), area_, u3, u4, spread);
+    }
+
+    [[nodiscard]] EmissionDomain exact_domain() const {
+        return emission_.domain({Kinks::diagonals, Edge::ends}, middle_.position, radius_);
     }
 
     /// Exact without a target, π radiance × area; else from 64 points of the disk.

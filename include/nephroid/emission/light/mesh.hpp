@@ -21,7 +21,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
-    static constexpr std::uint32_t dimensions = 4;
+    static constexpr EmissionDomain domain{.coordinates = 4};
     using Triangle = std::array<V, 3>;
 
     struct Options {
@@ -41,6 +41,10 @@ public:
         const T u3 = samples.template next<T>();
         const T u4 = samples.template next<T>();
         return emission_.emit(point(u1, u2), area_, u3, u4, spread);
+    }
+
+    [[nodiscard]] EmissionDomain exact_domain() const {
+        return emission_.domain({Kinks::unknown, Edge::ends}, faces_.front().corner, T(0));
     }
 
     /// Exact without a target, π radiance × area; else from 64 points of the triangles.

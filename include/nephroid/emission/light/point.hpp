@@ -29,7 +29,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
-    static constexpr std::uint32_t dimensions = 2;
+    static constexpr EmissionDomain domain{.coordinates = 2};
 
     struct Options {
         V position;
@@ -56,6 +56,11 @@ public:
         const T solid_angle = cone_.solid_angle();
         return {position_, direction, static_cast<F>(intensity_ * (solid_angle / spread.photons)),
                 detail::point_tangents(direction, spread.length(solid_angle))};
+    }
+
+    [[nodiscard]] EmissionDomain exact_domain() const {
+        const EmissionPair pair = directions_of(cone_);
+        return {.coordinates = 2, .kinks = {pair.kinks}, .edges = {pair.edges, pair.edges}};
     }
 
     /// Exact: intensity times the solid angle of the cone.

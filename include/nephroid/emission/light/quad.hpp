@@ -15,7 +15,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
-    static constexpr std::uint32_t dimensions = 4;
+    static constexpr EmissionDomain domain{.coordinates = 4};
 
     struct Options {
         V corner;
@@ -35,6 +35,11 @@ public:
         const T u3 = samples.template next<T>();
         const T u4 = samples.template next<T>();
         return emission_.emit(point(u1, u2), area_, u3, u4, spread);
+    }
+
+    [[nodiscard]] EmissionDomain exact_domain() const {
+        const V middle = point(T(0.5), T(0.5)).position;
+        return emission_.domain({Kinks::nowhere, Edge::ends}, middle, T(0.5) * (length(edge_u_) + length(edge_v_)));
     }
 
     /// Exact without a target, π radiance × area; else from 64 points of the parallelogram.

@@ -15,7 +15,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
-    static constexpr std::uint32_t dimensions = 4;
+    static constexpr EmissionDomain domain{.coordinates = 4};
 
     struct Options {
         V center;
@@ -34,6 +34,14 @@ public:
         const T u3 = samples.template next<T>();
         const T u4 = samples.template next<T>();
         return emission_.emit(point(u1, u2), area_, u3, u4, spread);
+    }
+
+    [[nodiscard]] EmissionDomain exact_domain() const {
+        EmissionDomain exact = emission_.domain(directions_of(cap_), center_, radius_);
+        // Directions about normals turn over where these lie across the middle one.
+        if (cap_.height >= T(1) && !emission_.aims_everywhere(center_, radius_) && emission_.is_aimed())
+            exact.kinks[0] = Kinks::unknown;
+        return exact;
     }
 
     /// Exact without a target, π radiance × area; else from 64 points of the cap.

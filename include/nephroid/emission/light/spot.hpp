@@ -15,7 +15,7 @@ public:
     using vector = V;
     using flux_type = F;
     using T = scalar_t<V>;
-    static constexpr std::uint32_t dimensions = 2;
+    static constexpr EmissionDomain domain{.coordinates = 2};
 
     struct Options {
         V position;
@@ -62,6 +62,11 @@ public:
         return {position_, direction,
                 static_cast<F>(intensity_ * (falloff(direction) * (solid_angle / spread.photons))),
                 detail::point_tangents(direction, spread.length(solid_angle))};
+    }
+
+    [[nodiscard]] EmissionDomain exact_domain() const {
+        const EmissionPair pair = directions_of(cone_);
+        return {.coordinates = 2, .kinks = {pair.kinks}, .edges = {pair.edges, pair.edges}};
     }
 
     /// The share of the intensity that goes into a unit direction, in [0, 1].

@@ -10,7 +10,7 @@
 #include "nephroid/footprint/ellipse.hpp"
 #include "nephroid/footprint/smoothing.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
-#include "nephroid/transport/walk.hpp"
+#include "nephroid/transport/deposit.hpp"
 
 #include <array>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "nephroid/smoothing/second_order/cell_contents.hpp"
 #include "nephroid/smoothing/second_order/emission_frame.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
-#include "nephroid/transport/walk.hpp"
+#include "nephroid/transport/deposit.hpp"
 
 #include <algorithm>
 #include <cmath>

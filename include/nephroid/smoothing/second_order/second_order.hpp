@@ -10,8 +10,8 @@
 /// shift"].
 ///
 /// For two emission coordinates (point, spot and directional lights) this is exact; for the four of an area light the
-/// same shift does it, along the slice that a footprint follows (area_field.hpp). Photons of lights that draw any other
-/// number of samples are splatted as without it, with one smoothing for all (cross_validation.hpp).
+/// same shift does it, along the slice that a footprint follows (area_field.hpp). Photons of lights that declare no
+/// domain are splatted as without it, with one smoothing for all (cross_validation.hpp).
 #pragma once
 
 #include "nephroid/emission/light.hpp"
@@ -33,7 +33,7 @@ namespace nephroid {
 
 /// The photons of a pass, turned to footprints.
 ///
-/// @tparam domains  what its lights may draw: no more is compiled than these need
+/// @tparam domains  what its lights may emit from: no more is compiled than these need
 template <Vector3 V, EmissionDomains domains = EmissionDomains{}>
 class SecondOrderFootprints {
 public:
@@ -89,9 +89,9 @@ public:
         }
     }
 
-    /// Whether a light's samples say which of its photons are neighbours.
+    /// Whether its light declares a domain: then coordinates say which photons are neighbours.
     [[nodiscard]] static bool has_cells(const EmissionSample& sample) {
-        return (domains.two && sample.dimensions == 2) || (domains.four && sample.dimensions == 4);
+        return (domains.two && sample.coordinates == 2) || (domains.four && sample.coordinates == 4);
     }
 
     /// What photons get that have no cells, where no smoothing is given; `default_smoothing` unless called.
@@ -110,7 +110,7 @@ public:
         const auto tangents = unit_tangents(deposit);
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
             const double fallback = !has_cells(photon.sample)       ? others_
-                                    : photon.sample.dimensions == 2 ? options_.policy.bounds.least
+                                    : photon.sample.coordinates == 2 ? options_.policy.bounds.least
                                                                     : default_smoothing;
             scale(deposit, T(options_.smoothing.value_or(fallback)));
             if (second != nullptr)
@@ -171,9 +171,9 @@ private:
             d = s * d;
     }
 
-    /// A light, and how many numbers it drew.
+    /// A light, and how many coordinates its domain has.
     using Origin = std::pair<std::uint32_t, std::uint32_t>;
-    [[nodiscard]] static Origin origin_of(const EmissionSample& sample) { return {sample.light, sample.dimensions}; }
+    [[nodiscard]] static Origin origin_of(const EmissionSample& sample) { return {sample.light, sample.coordinates}; }
 
     using OneField = std::conditional_t<domains.four, AreaField, FootprintField>;
     struct LightField {
@@ -189,7 +189,7 @@ private:
         return field.at(photon.sample, photon.frame, photon.signature);
     }
 
-    /// Nothing for lights that draw neither two nor four numbers, or of which there are too few photons.
+    /// Nothing for lights without a domain, or of which there are too few photons.
     [[nodiscard]] std::optional<FieldSample> field_at(const PathSample& photon) const {
         const Origin origin = origin_of(photon.sample);
         const auto found = std::lower_bound(fields_.begin(), fields_.end(), origin,

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+/// @file  The domain that a light emits from: what places a photon in it, where its map is smooth, where it ends.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+namespace nephroid {
+
+/// Lines in a square of two coordinates across which a light's map to rays has a kink. Elsewhere it is smooth.
+enum class Kinks : unsigned char {
+    nowhere,
+    diagonals,  ///< |u − ½| = |v − ½|: those of `concentric_disk`
+    octahedron, ///< u = ½, v = ½ and |u − ½| + |v − ½| = ½: those of `sphere_direction`
+    unknown,    ///< anywhere, and jumps too: such as between the triangles of a mesh
+};
+
+/// What lies at both ends of a coordinate, 0 and 1.
+enum class Edge : unsigned char {
+    ends,    ///< a border of the light
+    repeats, ///< no border: what lies at 0 lies at 1 too, and the coordinate goes round
+    folds,   ///< no border: the edge of the square is folded in its middle, (0, v) is (0, 1 − v)
+};
+
+/// What a number means that a light draws besides its coordinates.
+enum class EmissionExtra : unsigned char { none, wavelength, time };
+
+/// What a light says of its emission: a photon's ray is a function of its coordinates, each in [0, 1), alone.
+///
+/// A light draws its coordinates first, those of the position before those of the direction, then its extras: the
+/// fluxes and the walk may depend on these, and photons that differ in them alone are still neighbours.
+struct EmissionDomain {
+    std::uint32_t coordinates = 2;         ///< 2 or 4: one pair for a point's directions or a beam's section, two for
+                                           ///< an area light's positions and directions
+    std::array<EmissionExtra, 2> extras{}; ///< drawn after the coordinates, in this order
+    std::array<Kinks, 2> kinks{};          ///< of each pair of coordinates
+    std::array<Edge, 4> edges{};           ///< of each coordinate
+
+    /// How many numbers are drawn besides the coordinates.
+    [[nodiscard]] constexpr std::uint32_t extra_count() const {
+        std::uint32_t count = 0;
+        for (std::size_t i = 0; i < extras.size(); ++i)
+            count += extras[i] != EmissionExtra::none;
+        return count;
+    }
+};
+
+/// How far a point of a pair's square is from the nearest kink, in units of the square; infinite where there is none,
+/// 0 where they are unknown.
+[[nodiscard]] inline double distance_to_kink(Kinks kinks, double u, double v) {
+    const double a = std::abs(u - 0.5), b = std::abs(v - 0.5), root_half = std::sqrt(0.5);
+    switch (kinks) {
+    case Kinks::nowhere:
+        return std::numeric_limits<double>::infinity();
+    case Kinks::diagonals:
+        return root_half * std::abs(a - b);
+    case Kinks::octahedron:
+        return (std::min)({a, b, root_half * std::abs(a + b - 0.5)});
+    case Kinks::unknown:
+        break;
+    }
+    return 0;
+}
+
+} // namespace nephroid

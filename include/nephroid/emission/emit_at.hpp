@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+/// @file  A photon from a chosen point of its light's domain.
+#pragma once
+
+#include "nephroid/emission/light.hpp"
+
+#include <array>
+#include <cstddef>
+
+namespace nephroid {
+
+/// A source of samples that always gives the middle.
+struct MiddleSource {
+    template <Scalar T>
+    [[nodiscard]] T next() {
+        return T(0.5);
+    }
+};
+
+/// A source of samples that gives the coordinates of a point first, and then another source's numbers.
+template <std::size_t coordinates, class Rest>
+class PointSource {
+public:
+    PointSource(const std::array<double, coordinates>& point, Rest& rest) : point_(point), rest_(&rest) {}
+
+    template <Scalar T>
+    [[nodiscard]] T next() {
+        return given_ < coordinates ? T(point_[given_++]) : rest_->template next<T>();
+    }
+
+private:
+    std::array<double, coordinates> point_;
+    std::size_t given_ = 0;
+    Rest* rest_;
+};
+
+/// The photon that a light emits from a point of its domain: a function of the point, smooth where the light declares
+/// it to be.
+///
+/// @param light   with a declared `domain`; one of a set's, not the set
+/// @param point   as many coordinates as the domain has, each in [0, 1]
+/// @param spread  of how many photons it is one, and how smooth: photons times its flux is the flux density over the
+///                domain's unit square
+/// @param extras  gives the wavelength and the like; where left out, each is the middle of its range
+///
+/// ```cpp
+/// const auto corner = nephroid::emit_at(sun, {0.25, 0.75}, nephroid::Spread<float>{1, 1});
+/// ```
+template <class L, class Extras>
+[[nodiscard]] auto emit_at(const L& light, const std::array<double, coordinates_of<L>>& point,
+                           const Spread<scalar_t<typename L::vector>>& spread, Extras& extras) {
+    static_assert(coordinates_of<L> != 0, "nephroid::emit_at: the light declares no `domain` (emission/light.hpp)");
+    PointSource<coordinates_of<L>, Extras> samples(point, extras);
+    return light.emit(samples, spread);
+}
+
+template <class L>
+[[nodiscard]] auto emit_at(const L& light, const std::array<double, coordinates_of<L>>& point,
+                           const Spread<scalar_t<typename L::vector>>& spread) {
+    MiddleSource middle;
+    return emit_at(light, point, spread, middle);
+}
+
+} // namespace nephroid

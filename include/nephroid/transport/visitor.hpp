@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a method may ask of a photon's walk: flights, surfaces, deposits, all ways of light.
+#pragma once
+
+#include "nephroid/emission/photon.hpp"
+#include "nephroid/transport/deposit.hpp"
+#include "nephroid/transport/flight.hpp"
+#include "nephroid/transport/trail.hpp"
+#include "nephroid/transport/ways.hpp"
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <type_traits>
+
+namespace nephroid {
+
+/// The members of a visitor, each of which may be left out. What is left out is not compiled.
+///
+/// - `flight(flight)`: told of each straight way as it begins (transport/flight.hpp); of all, those that leave the
+///   scene too
+/// - `meet(hit, from_front, passed)`: told of each surface, once it is known whether the photon goes on through it; of
+///   the one that it is deposited on last
+/// - `deposit(deposit, path)`: told of each deposit with its `WalkedPath`. It returns nothing, and the photon ends:
+///   whoever visits books the flux. Or std::optional<Photon<V, F, N>>: a photon there goes on, from the deposit's
+///   position, and what it carries less than arrived is booked as absorbed; without one, the photon ends as above
+/// - `using trail = PathSignature`: what is noted of each path, or a type like it. It begins anew at the lamp, is
+///   copied where ways part, and comes with each deposit as `path.trail`
+/// - `static constexpr bool wants_direct_light = true`: deposits straight from the lamp are told, too, and so left to
+///   the visitor; else the walk books them as Fate::direct
+/// - `static constexpr bool follows_all_ways = true`: at a surface the photon takes all ways that the scene tells
+///   (`scatter_all`), one after the other, in the scene's order, each to its end; no roulette then. A photon may so
+///   have many deposits, or none
+///
+/// ```cpp
+/// struct Corners { // all deposits of a photon, each with the number of its path
+///     using trail = nephroid::PathSignature;
+///     static constexpr bool follows_all_ways = true;
+///
+///     std::vector<std::pair<std::uint32_t, nephroid::Deposit<Vec3, Colour, 0>>> found;
+///
+///     void deposit(const nephroid::Deposit<Vec3, Colour, 0>& deposit,
+///                  const nephroid::WalkedPath<nephroid::PathSignature>& path) {
+///         found.emplace_back(path.trail.value(), deposit);
+///     }
+/// };
+/// ```
+///
+/// A visitor without `deposit` is for a walk that ends in one deposit at most, which `walk` then returns.
+struct NoVisitor {}; ///< asks for nothing
+
+namespace detail {
+struct HasFlight {
+    int flight;
+};
+struct HasMeet {
+    int meet;
+};
+struct HasDeposit {
+    int deposit;
+};
+template <class A, class B>
+struct Both : A, B {};
+
+// Whether a type has a member of a name, whatever it is: another base with the same one makes it ambiguous.
+template <class Visitor>
+concept CanBeBase = std::is_class_v<Visitor> && !std::is_final_v<Visitor>;
+template <class Visitor>
+concept NamesFlight = CanBeBase<Visitor> && !requires {
+    &Both<Visitor, HasFlight>::flight;
+};
+template <class Visitor>
+concept NamesMeet = CanBeBase<Visitor> && !requires {
+    &Both<Visitor, HasMeet>::meet;
+};
+template <class Visitor>
+concept NamesDeposit = CanBeBase<Visitor> && !requires {
+    &Both<Visitor, HasDeposit>::deposit;
+};
+
+template <class Visitor>
+struct trail_of {
+    using type = NoTrail;
+};
+template <class Visitor>
+    requires requires { typename Visitor::trail; }
+struct trail_of<Visitor> {
+    using type = typename Visitor::trail;
+};
+template <class Visitor>
+using trail_t = typename trail_of<Visitor>::type;
+
+template <class Trail, class H>
+concept TrailOver = std::default_initializable<Trail> && std::copyable<Trail> && requires(Trail trail, const H& hit) {
+    trail.meet(hit, true, true);
+};
+
+template <class Visitor>
+inline constexpr bool follows_all_ways = [] {
+    if constexpr (requires { std::bool_constant<Visitor::follows_all_ways>(); })
+        return bool(Visitor::follows_all_ways);
+    else
+        return false;
+}();
+
+template <class Visitor>
+inline constexpr bool wants_direct_light = [] {
+    if constexpr (requires { std::bool_constant<Visitor::wants_direct_light>(); })
+        return bool(Visitor::wants_direct_light);
+    else
+        return false;
+}();
+
+template <class Visitor, class V, class F, std::size_t N>
+concept VisitsFlights = requires(Visitor& visitor, const Flight<V, F, N>& flight) {
+    visitor.flight(flight);
+};
+
+template <class Visitor, class H>
+concept VisitsSurfaces = requires(Visitor& visitor, const H& hit) {
+    visitor.meet(hit, true, true);
+};
+
+template <class Visitor, class V, class F, std::size_t N>
+concept VisitsDeposits = requires(Visitor& visitor, const Deposit<V, F, N>& deposit,
+                                  const WalkedPath<trail_t<Visitor>>& path) {
+    visitor.deposit(deposit, path);
+};
+
+/// Its photons go on from deposits where it says so.
+template <class Visitor, class V, class F, std::size_t N>
+concept SendsPhotonsOn = VisitsDeposits<Visitor, V, F, N> &&
+    requires(Visitor& visitor, const Deposit<V, F, N>& deposit, const WalkedPath<trail_t<Visitor>>& path) {
+    { visitor.deposit(deposit, path) } -> std::convertible_to<std::optional<Photon<V, F, N>>>;
+};
+
+template <class Visitor, class V, class F, std::size_t N>
+concept EndsPhotonsAtDeposits = VisitsDeposits<Visitor, V, F, N> &&
+    requires(Visitor& visitor, const Deposit<V, F, N>& deposit, const WalkedPath<trail_t<Visitor>>& path) {
+    { visitor.deposit(deposit, path) } -> std::same_as<void>;
+};
+
+template <class Visitor, class S, class V, class F, std::size_t N>
+concept FitsWalk =
+    (!NamesFlight<Visitor> || VisitsFlights<Visitor, V, F, N>)&&(
+        !NamesMeet<Visitor> ||
+        VisitsSurfaces<Visitor, hit_t<S, V>>)&&(!NamesDeposit<Visitor> ||
+                                                VisitsDeposits<Visitor, V, F,
+                                                               N>)&&(!VisitsDeposits<Visitor, V, F, N> ||
+                                                                     EndsPhotonsAtDeposits<Visitor, V, F, N> ||
+                                                                     SendsPhotonsOn<Visitor, V, F,
+                                                                                    N>)&&TrailOver<trail_t<Visitor>,
+                                                                                                   hit_t<S, V>> &&
+    (!follows_all_ways<Visitor> ||
+     VisitsDeposits<Visitor, V, F, N>)&&(!follows_all_ways<Visitor> ||
+                                         TellsAllWays<S, V>)&&(std::same_as<Visitor, NoVisitor> ||
+                                                               VisitsFlights<Visitor, V, F, N> ||
+                                                               VisitsSurfaces<Visitor, hit_t<S, V>> ||
+                                                               VisitsDeposits<Visitor, V, F, N>);
+
+/// What is wrong with a visitor, as the first line of the compiler's message.
+template <class Visitor, class S, class V, class F, std::size_t N>
+consteval bool explain_visitor() {
+    using H = hit_t<S, V>;
+    constexpr bool deposits = VisitsDeposits<Visitor, V, F, N>;
+    static_assert(TrailOver<trail_t<Visitor>, H>,
+                  "nephroid::walk: the visitor's `trail` must be default-constructible, copyable, and have "
+                  "meet(hit, bool from_front, bool passed) (transport/trail.hpp)");
+    static_assert(!NamesFlight<Visitor> || VisitsFlights<Visitor, V, F, N>,
+                  "nephroid::walk: the visitor's `flight` must take a const Flight<V, F, N>& of the photon's vector, "
+                  "flux and number of tangents (transport/flight.hpp)");
+    static_assert(!NamesMeet<Visitor> || VisitsSurfaces<Visitor, H>,
+                  "nephroid::walk: the visitor's `meet` must take (hit, bool from_front, bool passed) "
+                  "(transport/visitor.hpp)");
+    static_assert(!NamesDeposit<Visitor> || deposits,
+                  "nephroid::walk: the visitor's `deposit` must take (const Deposit<V, F, N>&, const "
+                  "WalkedPath<trail>&), of the photon's vector, flux and number of tangents (transport/visitor.hpp)");
+    static_assert(!deposits || EndsPhotonsAtDeposits<Visitor, V, F, N> || SendsPhotonsOn<Visitor, V, F, N>,
+                  "nephroid::walk: the visitor's `deposit` must return nothing, or std::optional<Photon<V, F, N>>: "
+                  "what goes on from there (transport/visitor.hpp)");
+    static_assert(!follows_all_ways<Visitor> || deposits,
+                  "nephroid::walk: a visitor that follows all ways must have deposit(deposit, path), as a photon then "
+                  "has many (transport/visitor.hpp)");
+    static_assert(
+        !follows_all_ways<Visitor> || TellsAllWays<S, V>,
+        "nephroid::walk: the visitor follows all ways, but the scene lacks scatter_all(hit, direction) const; "
+        "if its scatter draws no numbers, say scatters_by_chance = false (transport/ways.hpp)");
+    static_assert(deposits || VisitsFlights<Visitor, V, F, N> || VisitsSurfaces<Visitor, H>,
+                  "nephroid::walk: the visitor has neither flight, nor meet, nor deposit (transport/visitor.hpp)");
+    return false;
+}
+
+template <class Visitor, class S, class V, class F, std::size_t N>
+concept MustVisit = FitsWalk<Visitor, S, V, F, N> || explain_visitor<Visitor, S, V, F, N>();
+} // namespace detail
+
+} // namespace nephroid
