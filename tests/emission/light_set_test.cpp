@@ -3,6 +3,7 @@
 
 #include "nephroid/vector/glm.hpp"
 
+#include "emission/light/coloured_sun.hpp"
 #include "emission/light/light_laws.hpp"
 #include "nephroid/emission/emission_sample.hpp"
 #include "nephroid/emission/light/standard_lights.hpp"
@@ -32,6 +33,19 @@ struct Laser {
         return {D(0), D(0, 0, 1), watts / spread.photons, {}};
     }
     double power() const { return watts; }
+};
+
+/// Three tangents, and no domain.
+struct PlainSun {
+    using vector = D;
+    using flux_type = double;
+    ColouredSun<D> sun;
+
+    template <class S>
+    Photon<D, double, 3> emit(S& samples, const Spread<double>& spread) const {
+        return sun.emit(samples, spread);
+    }
+    double power() const { return sun.power(); }
 };
 
 } // namespace
@@ -129,4 +143,21 @@ TEST_CASE("light set: no lights and lights of impossible power are refused") {
     CHECK_THROWS_AS(Lights({}), std::invalid_argument);
     CHECK_THROWS_AS(LightSet<Laser>({Laser{-1}}), std::invalid_argument);
     CHECK_THROWS_AS(LightSet<Laser>({Laser{std::nan("")}}), std::invalid_argument);
+}
+
+TEST_CASE("light set: lights of three tangents make a set, with extras or without") {
+    using Set = LightSet<ColouredSun<D>, PlainSun>;
+    static_assert(Light<Set> && emitted_t<Set>::tangent_count == 3);
+    static_assert(emission_domains<Set>.two && emission_domains<Set>.others && !emission_domains<Set>.four);
+    const Set set({ColouredSun<D>(), PlainSun()});
+    for (const double choice : {0.25, 0.75}) {
+        GivenSamples samples({choice, 0.3, 0.4, 0.5});
+        RecordingSource recorder(samples, coordinates_of<Set>);
+        const auto photon = set.emit(recorder, Spread<double>{1, 1});
+        CHECK(photon.differential.size() == 3);
+        CHECK(recorder.sample().light == (choice < 0.5 ? 0 : 1));
+        CHECK(recorder.sample().coordinates == (choice < 0.5 ? 2 : 0));
+        CHECK(recorder.sample().at[0] == (choice < 0.5 ? 0.3 : 0));
+        CHECK(samples.drawn() == 4); // the wavelength too
+    }
 }

@@ -2,6 +2,8 @@
 // Second-order splatting as a whole, from the lamp to the picture, and what first-order splatting keeps beside it.
 #include "nephroid/smoothing/pilot.hpp"
 
+#include "emission/light/coloured_sun.hpp"
+
 #include "support/first_order.hpp"
 #include "support/foreign_vectors.hpp"
 #include "support/glass_ball.hpp"
@@ -361,4 +363,37 @@ TEST_CASE("second order: dual numbers bring the derivative of what a straight ma
     }
     CHECK(largest > 0.1);
     CHECK(furthest <= 1e-6 * largest); // as in dual_caustic_test.cpp, and S = 25 to rounding only
+}
+
+// What a lamp draws besides its coordinates is no reason to lose its photons' neighbours: each splat lies where the same
+// photon of the plain sun does.
+TEST_CASE_TEMPLATE("second order: a light that draws a wavelength as well keeps its fields", T, float, double) {
+    using V = Vec<T>;
+    const auto placed = [](const auto& light) {
+        using L = std::remove_cvref_t<decltype(light)>;
+        static_assert(emission_domains<L>.two && !emission_domains<L>.others);
+        const PhotonPass pass{.count = 3000};
+        const HaltonSequence sequence(1);
+        SerialExecutor executor;
+        const SplatPolicies<> policies;
+        const auto pilot = detail::trace_pilot(ball<V>(), light, pass, policies.order, sequence, executor);
+        const auto footprints =
+            detail::footprints_from<emission_domains<L>>(pilot, pass, policies, 100.0, true, executor);
+        std::vector<V> places;
+        std::size_t moved = 0;
+        for (auto photon : pilot.photons) {
+            CHECK(footprints.has_cells(photon.sample));
+            if (!photon.deposit)
+                continue;
+            const V before = photon.deposit->position;
+            (void)footprints.apply(photon);
+            moved += !(photon.deposit->position == before);
+            places.push_back(photon.deposit->position);
+        }
+        CHECK(moved > places.size() / 2);
+        return places;
+    };
+    const auto plain = placed(sun<V>()), coloured = placed(tests::ColouredSun<V>{sun<V>()});
+    REQUIRE(plain.size() > 1000);
+    CHECK(plain == coloured);
 }

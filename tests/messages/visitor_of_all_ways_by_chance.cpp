@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// expect: the visitor follows all ways, but the scene lacks scatter_all(hit, direction) const
+#include "messages/renderer.hpp"
+
+struct Wrong {
+    static constexpr bool follows_all_ways = true;
+    void deposit(const nephroid::Deposit<V, float>&, const nephroid::WalkedPath<>&) {}
+};
+
+int main() {
+    const nephroid::HaltonSequence sequence;
+    nephroid::Sampler<nephroid::HaltonSequence> sampler(sequence, 0);
+    nephroid::Statistics account;
+    Wrong visitor;
+    (void)nephroid::walk(Scene{}, sun.emit(sampler, nephroid::Spread<float>{1, 1}), sampler, {}, account, visitor);
+}
