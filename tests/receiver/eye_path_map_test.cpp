@@ -54,11 +54,11 @@ void check_floor_and_wall(const EyePathMap<V>& map) {
             CHECK(map.normal_x()[slot] == (on_floor ? T(0) : T(-1)));
             CHECK(map.normal_y()[slot] == T(0));
             CHECK(map.normal_z()[slot] == (on_floor ? T(1) : T(0)));
-            const auto& n = map.leaf(number).normal;
+            const auto& n = map.leaf(number).normals.axis;
             CHECK(n == std::array<T, 3>{map.normal_x()[slot], map.normal_y()[slot], map.normal_z()[slot]});
         }
         // 100 units apart: no leaf has vertices of both, so every one has a lattice of its own and one normal.
-        CHECK(map.leaf(number).spread == T(0));
+        CHECK(map.leaf(number).normals.spread == T(0));
     }
     CHECK(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
     CHECK(map.spacing_at(make_vector<V>(T(3), T(3), T(0.01))) == T(0.25));
@@ -229,11 +229,12 @@ TEST_CASE("eye path map: no normal is further from the middle of its leaf's than
         const TreeLeaf leaf = map.tree().leaves()[number];
         float largest = 0;
         for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
-            largest = (std::max)(largest, std::hypot(map.normal_x()[slot] - known.normal[0],
-                                                     map.normal_y()[slot] - known.normal[1],
-                                                     map.normal_z()[slot] - known.normal[2]));
-        CHECK(largest <= known.spread * (1 + 1e-6f));
-        CHECK(known.spread < 2 * largest); // a leaf of 50 in 2000 is a twentieth of a ball: its bounds' corner is near
+            largest = (std::max)(largest, std::hypot(map.normal_x()[slot] - known.normals.axis[0],
+                                                     map.normal_y()[slot] - known.normals.axis[1],
+                                                     map.normal_z()[slot] - known.normals.axis[2]));
+        CHECK(largest <= known.normals.spread * (1 + 1e-6f));
+        CHECK(known.normals.spread <
+              2 * largest); // a leaf of 50 in 2000 is a twentieth of a ball: its bounds' corner is near
     }
 }
 

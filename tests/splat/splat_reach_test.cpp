@@ -118,7 +118,7 @@ TEST_CASE_TEMPLATE("splat reach: rounding along a needle leaves out no vertex", 
             leaf.middle[std::size_t(axis)] = T(0.5) * least + T(0.5) * most;
             leaf.half[std::size_t(axis)] =
                 std::max(most - leaf.middle[std::size_t(axis)], leaf.middle[std::size_t(axis)] - least);
-            leaf.normal[std::size_t(axis)] = normal[axis];
+            leaf.normals.axis[std::size_t(axis)] = normal[axis];
         }
         const detail::LeafMeeting meeting = detail::SplatReach<V, T>(splat)(leaf);
         for (const V& vertex : vertices) {
@@ -159,7 +159,7 @@ TEST_CASE_TEMPLATE("splat reach: rounding at the end of a leaf about the photon 
         EyePathLeaf<T> leaf{}; // as the map does
         leaf.middle[2] = T(0.5) * deep + T(0.5) * high;
         leaf.half[2] = std::max(high - leaf.middle[2], leaf.middle[2] - deep);
-        leaf.normal[2] = T(1);
+        leaf.normals.axis[2] = T(1);
         const bool is_low = std::abs(dot(splat.row_n, V(0, 0, high) - centre)) < T(1);
         wrong += !is_low && !detail::SplatReach<V, T>(splat)(leaf).checks_height;
         low += is_low;

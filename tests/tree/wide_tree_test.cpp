@@ -2,6 +2,7 @@
 #include "nephroid/tree/wide_tree.hpp"
 
 #include "nephroid/tree/build_tree.hpp"
+#include "nephroid/tree/nearest_leaf.hpp"
 
 #include "support/space.hpp"
 
@@ -68,7 +69,13 @@ TEST_CASE("wide tree: visits the leaves that a box overlaps and in their order")
                 for (const auto& node : nodes)
                     if (node.leaf != no_leaf && node.box.overlaps(box))
                         expected.push_back(node.leaf);
-                wide.visit_leaves(nodes, box, [&](std::uint32_t leaf) { found.push_back(leaf); });
+                const auto visit = [&](std::uint32_t leaf) { found.push_back(leaf); };
+                detail::visit_overlapping<double>(wide.nodes(), nodes, box, visit);
+                REQUIRE(found == expected);
+                // Any other volume goes another way through the same nodes.
+                found.clear();
+                const auto enters = [&](std::uint32_t, const Box<double>& other) { return other.overlaps(box); };
+                detail::visit_entered<double>(wide.nodes(), nodes, enters, visit);
                 REQUIRE(found == expected);
             }
         }
@@ -89,7 +96,7 @@ TEST_CASE("wide tree: finds the nearest leaf") {
                 double least = std::numeric_limits<double>::infinity();
                 for (const auto& leaf : leaves)
                     least = (std::min)(least, distance(leaf, p));
-                REQUIRE(distance(leaves[wide.nearest_leaf(nodes, p)], p) == least);
+                REQUIRE(distance(leaves[detail::nearest_leaf<double>(wide.nodes(), nodes, p)], p) == least);
             }
         }
 }
@@ -102,13 +109,15 @@ TEST_CASE("wide tree: follows nodes that have moved") {
             node.box.low[axis] += 10, node.box.high[axis] += 10;
     wide.refit(nodes);
     std::size_t found = 0;
-    wide.visit_leaves(nodes, Box<double>{{8, 8, 8}, {12, 12, 12}}, [&](std::uint32_t) { ++found; });
+    const auto count = [&](std::uint32_t) { ++found; };
+    detail::visit_overlapping<double>(wide.nodes(), nodes, {{8, 8, 8}, {12, 12, 12}}, count);
     CHECK(found == 300);
 }
 
 TEST_CASE("wide tree: without nodes has no leaves") {
     const detail::WideTree<double> wide{Nodes{}};
-    wide.visit_leaves({}, Box<double>{{-1, -1, -1}, {1, 1, 1}}, [](std::uint32_t) { FAIL("a leaf"); });
+    const auto visit = [](std::uint32_t) { FAIL("a leaf"); };
+    detail::visit_overlapping<double>(wide.nodes(), {}, {{-1, -1, -1}, {1, 1, 1}}, visit);
 }
 
 // Halves of more than twelve leaves' points are parted in the middle, which leaves more than six leaves' points to be
@@ -132,8 +141,8 @@ TEST_CASE("wide tree: a box without an end meets every leaf once") {
             const Nodes nodes = spread(count, clustered);
             const detail::WideTree<double> wide{nodes};
             std::vector<std::uint32_t> met;
-            wide.visit_leaves(std::span<const TreeNode<double>>(nodes), everything,
-                              [&](std::uint32_t leaf) { met.push_back(leaf); });
+            const auto visit = [&](std::uint32_t leaf) { met.push_back(leaf); };
+            detail::visit_overlapping<double>(wide.nodes(), nodes, everything, visit);
             CHECK(met.size() == std::size_t(count));
             for (std::size_t i = 0; i < met.size(); ++i)
                 CHECK(met[i] == i);

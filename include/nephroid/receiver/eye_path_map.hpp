@@ -2,28 +2,16 @@
 /// @file  The eye path map: where the camera's paths end, looked up by the footprints that fall on them.
 #pragma once
 
-#include "nephroid/receiver/spacing.hpp"
+#include "nephroid/receiver/eye_path_view.hpp"
+#include "nephroid/receiver/leaf_spacing.hpp"
+#include "nephroid/receiver/projection.hpp"
 #include "nephroid/tree/point_tree.hpp"
-
-#include <algorithm>
-#include <functional>
-#include <numeric>
-#include <ranges>
 
 namespace nephroid {
 
-/// What the splatter knows of a leaf beyond its points.
-template <Scalar T>
-struct EyePathLeaf {
-    std::array<T, 3> middle, half; ///< of its box, relative to the tree's origin, and how far it reaches from there
-    std::array<T, 3>
-        normal; ///< in the middle of its vertices' normals, none of which is further from it than `spread`:
-    T spread;   ///< one test for a whole leaf that faces a photon
-    T spacing;  ///< of neighbouring vertices, world units: one pixel's footprint on the surface; 0 if unknown
-};
-
 /// Eye path vertices (hits of the camera's paths on diffuse surfaces) in a kd-tree, read from the user's own array
-/// through two projections; the map copies positions and normals and refers to a vertex by its index in that array.
+/// through projections; the map copies positions and normals and refers to a vertex by its index in that array. What
+/// can be asked of it EyePathView says.
 ///
 /// ```cpp
 /// const nephroid::EyePathMap map(vertices, &MyVertex::position, &MyVertex::normal);
@@ -34,134 +22,176 @@ public:
     using T = scalar_t<V>;
     using vector = V;
 
-    /// @param vertices  a random-access range; may be empty, and is not needed after the call
-    /// @param position  projection to V: a member pointer or a callable; finite
-    /// @param normal    projection to V: unit, on the side that the camera sees; photons on the other side do not count
-    /// Throws std::invalid_argument naming the vertex whose position or normal is not finite or not of unit length.
-    template <std::ranges::random_access_range Vertices, class Position, class Normal>
-    EyePathMap(const Vertices& vertices, Position position, Normal normal)
-        : tree_(
-              std::size_t(std::ranges::size(vertices)),
-              [&](std::size_t i) -> V { return std::invoke(position, at(vertices, i)); }, "nephroid::EyePathMap") {
-        gather_normals(vertices, normal);
-        leaves_.reserve(tree_.leaves().size());
-        for (const TreeNode<T>& node : tree_.nodes())
-            if (node.leaf != no_leaf)
-                append_leaf(tree_.leaves()[node.leaf], node.box);
-        fill_unknown_spacings();
-        const Box<T>& box = tree_.bounds();
-        for (std::size_t axis = 0; !tree_.empty() && axis < 3; ++axis)
-            diagonal_ = diagonal_ + square(box.high[axis] - box.low[axis]);
-        diagonal_ = sqrt(diagonal_);
-    }
-
-    [[nodiscard]] const PointTree<V>& tree() const { return tree_; }
-    [[nodiscard]] const EyePathLeaf<T>& leaf(std::uint32_t leaf) const { return leaves_[leaf]; }
-    /// Normals by slot of the tree's leaf order.
-    [[nodiscard]] const T* normal_x() const { return normals_[0].data(); }
-    [[nodiscard]] const T* normal_y() const { return normals_[1].data(); }
-    [[nodiscard]] const T* normal_z() const { return normals_[2].data(); }
-
-    /// The diagonal of the bounds of all vertices, world units.
-    [[nodiscard]] T diagonal() const { return diagonal_; }
-
-    /// The spacing of the vertices around a world position: one pixel's footprint on the surface there. 0 when the
-    /// map is empty or all of its vertices coincide.
-    [[nodiscard]] T spacing_at(const V& position) const {
-        return tree_.empty() ? T(0) : leaves_[tree_.nearest_leaf(tree_.relative(position))].spacing;
-    }
-
-private:
-    template <class Vertices>
-    [[nodiscard]] static decltype(auto) at(const Vertices& vertices, std::size_t i) {
-        return std::ranges::begin(vertices)[std::ranges::range_difference_t<const Vertices>(i)];
-    }
-
-    template <class Vertices, class Normal>
-    void gather_normals(const Vertices& vertices, Normal& normal) {
-        using t = vector_traits<V>;
-        for (auto& component : normals_)
-            component.resize(tree_.slots());
-        for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
-            const V n = std::invoke(normal, at(vertices, tree_.index(slot)));
-            if (!(abs(length2(n) - T(1)) < T(0.01)))
-                invalid_argument("nephroid::EyePathMap: vertex " + std::to_string(tree_.index(slot)) +
-                                 " has the normal " + detail::text_of(n) + "; normals must be of unit length");
-            normals_[0][slot] = t::x(n), normals_[1][slot] = t::y(n), normals_[2][slot] = t::z(n);
+    /// @param vertices   a random-access range; may be empty, and is not needed after the call
+    /// @param position   projection to V: a member pointer or a callable; finite
+    /// @param normal     projection to V: unit, on the side that the camera sees; photons on the other side do not count
+    /// @param footprint  projection to PixelFootprint<V>, or a range of as many, or nothing: squares of the spacing.
+    ///                   Takes seven scalars a vertex where it is given
+    /// Throws std::invalid_argument naming the vertex whose position, normal or footprint is not finite, not of unit
+    /// length, or without an area.
+    template <std::ranges::random_access_range Vertices, class Position, class Normal,
+              class Footprint = FootprintsFromSpacing>
+        requires detail::MustProject<V, Vertices, Position, Normal, Footprint>
+        EyePathMap(const Vertices& vertices, Position position, Normal normal, const Footprint& footprint = {})
+            : tree_(
+                  std::size_t(std::ranges::size(vertices)),
+                  [&](std::size_t i) -> V { return std::invoke(position, detail::vertex_at(vertices, i)); },
+                  "nephroid::EyePathMap") {
+            gather_normals(vertices, normal);
+            std::vector<Box<T>> normals = describe_leaves();
+            if constexpr (!std::same_as<Footprint, FootprintsFromSpacing>)
+                gather_footprints(vertices, footprint);
+            describe_nodes(normals);
+            const Box<T> box = tree_.bounds();
+            for (std::size_t axis = 0; !tree_.empty() && axis < 3; ++axis)
+                diagonal_ = diagonal_ + square(box.high[axis] - box.low[axis]);
+            diagonal_ = sqrt(diagonal_);
         }
-    }
 
-    /// Leaves come in their own order, as the nodes do.
-    void append_leaf(const TreeLeaf& leaf, const Box<T>& box) {
-        const Box<T> normals = normal_bounds(leaf);
-        EyePathLeaf<T>& added = leaves_.emplace_back();
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            added.middle[axis] = T(0.5) * box.low[axis] + T(0.5) * box.high[axis];
-            // From the middle as it was rounded: else a vertex far from the origin may lie outside.
-            added.half[axis] = (std::max)(box.high[axis] - added.middle[axis], added.middle[axis] - box.low[axis]);
-            added.normal[axis] = T(0.5) * normals.low[axis] + T(0.5) * normals.high[axis];
-            added.spread = added.spread + square(T(0.5) * normals.high[axis] - T(0.5) * normals.low[axis]);
+        /// Valid as long as this map lives.
+        [[nodiscard]] EyePathView<V> view() const {
+            std::array<const T*, 7> rows{};
+            for (std::size_t i = 0; !rows_[0].empty() && i < rows.size(); ++i)
+                rows[i] = rows_[i].data();
+            return {tree_.view(),
+                    {leaves_, nodes_, {normals_[0].data(), normals_[1].data(), normals_[2].data()}, rows, diagonal_}};
         }
-        added.spread = sqrt(added.spread);
-        added.spacing = leaf_spacing(leaf);
-    }
 
-    [[nodiscard]] Box<T> normal_bounds(const TreeLeaf& leaf) const {
-        Box<T> box;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const T* const component = normals_[axis].data() + leaf.first;
-            T low = component[0], high = low;
-            for (std::size_t i = 1; i < leaf.size; ++i) {
-                low = (std::min)(low, component[i]);
-                high = (std::max)(high, component[i]);
+        // As EyePathView has them.
+        [[nodiscard]] const PointTree<V>& tree() const { return tree_; }
+        [[nodiscard]] const EyePathLeaf<T>& leaf(std::uint32_t leaf) const { return leaves_[leaf]; }
+        [[nodiscard]] const EyePathNode<T>& node(std::uint32_t node) const { return nodes_[node]; }
+        [[nodiscard]] const T* normal_x() const { return normals_[0].data(); }
+        [[nodiscard]] const T* normal_y() const { return normals_[1].data(); }
+        [[nodiscard]] const T* normal_z() const { return normals_[2].data(); }
+        [[nodiscard]] T diagonal() const { return diagonal_; }
+        [[nodiscard]] T spacing_at(const V& position) const { return view().spacing_at(position); }
+        [[nodiscard]] bool has_footprints() const { return !rows_[0].empty(); }
+        [[nodiscard]] FootprintRows<V> footprint(std::uint32_t leaf, std::size_t slot) const {
+            return view().footprint(leaf, slot);
+        }
+        template <class Q, class Visit>
+        void visit_leaves(const Q& volume, Visit&& visit) const {
+            view().visit_leaves(volume, visit);
+        }
+        template <class Q, class Visit>
+        void visit_footprints(const Q& volume, Visit&& visit) const {
+            view().visit_footprints(volume, visit);
+        }
+
+    private:
+        template <class Vertices, class Normal>
+        void gather_normals(const Vertices& vertices, Normal& normal) {
+            using t = vector_traits<V>;
+            for (auto& component : normals_)
+                component.resize(tree_.slots());
+            for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
+                const V n = std::invoke(normal, detail::vertex_at(vertices, tree_.index(slot)));
+                if (!(abs(length2(n) - T(1)) < T(0.01)))
+                    invalid_argument("nephroid::EyePathMap: vertex " + std::to_string(tree_.index(slot)) +
+                                     " has the normal " + detail::text_of(n) + "; normals must be of unit length");
+                normals_[0][slot] = t::x(n), normals_[1][slot] = t::y(n), normals_[2][slot] = t::z(n);
             }
-            box.low[axis] = low, box.high[axis] = high;
-        }
-        return box;
-    }
-
-    /// From the vertices around the leaf's middle, its own and its neighbours', so that leaves of any shape will do.
-    [[nodiscard]] T leaf_spacing(const TreeLeaf& leaf) const {
-        const T* const coordinates[3] = {tree_.x(), tree_.y(), tree_.z()};
-        std::array<T, 3> middle;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const T* const first = coordinates[axis] + leaf.first;
-            middle[axis] = std::accumulate(first, first + leaf.size, T(0)) / T(leaf.size);
         }
 
-        constexpr std::size_t wanted = 24;
-        std::array<Neighbour<T>, wanted> found;
-        const std::size_t count = tree_.nearest(make_vector<V>(middle[0], middle[1], middle[2]), found);
-        std::array<std::array<T, wanted>, 3> around;
-        for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                around[axis][i] = coordinates[axis][found[i].slot];
-        return point_spacing<T>({around[0].data(), count}, {around[1].data(), count}, {around[2].data(), count});
-    }
+        /// Makes the leaves, and bounds their nodes' reach by the spacing.
+        /// @return  the bounds of the leaves' normals, by node
+        [[nodiscard]] std::vector<Box<T>> describe_leaves() {
+            const PointTreeView<V> tree = tree_.view();
+            std::vector<T> spacings;
+            spacings.reserve(tree.leaves().size());
+            for (const TreeLeaf& leaf : tree.leaves())
+                spacings.push_back(detail::leaf_spacing(tree, leaf));
+            detail::fill_unknown_spacings(spacings);
 
-    /// A leaf about which all vertices coincide takes the median of the others.
-    void fill_unknown_spacings() {
-        std::vector<T> known;
-        for (const EyePathLeaf<T>& leaf : leaves_)
-            if (leaf.spacing > T(0))
-                known.push_back(leaf.spacing);
-        if (known.empty())
-            return;
-        const auto middle = known.begin() + std::ptrdiff_t(known.size() / 2);
-        std::nth_element(known.begin(), middle, known.end());
-        for (EyePathLeaf<T>& leaf : leaves_)
-            if (!(leaf.spacing > T(0)))
-                leaf.spacing = *middle;
-    }
+            leaves_.reserve(tree.leaves().size());
+            nodes_.resize(tree.nodes().size());
+            std::vector<Box<T>> normals(nodes_.size(), detail::empty_box<T>());
+            for (std::size_t i = 0; i < nodes_.size(); ++i) {
+                const TreeNode<T>& node = tree.nodes()[i];
+                if (node.leaf == no_leaf)
+                    continue;
+                normals[i] = detail::normal_bounds(normals_, tree.leaves()[node.leaf]);
+                leaves_.push_back(
+                    detail::leaf_of(node.box, normals[i], spacings[node.leaf])); // in order, as the nodes are
+                nodes_[i].reach = detail::square_reach(normals[i], spacings[node.leaf]);
+            }
+            return normals;
+        }
 
-    PointTree<V> tree_;
-    std::array<std::vector<T>, 3> normals_;
-    std::vector<EyePathLeaf<T>> leaves_;
-    T diagonal_ = T(0);
+        template <class Vertices, class Footprint>
+        void gather_footprints(const Vertices& vertices, const Footprint& footprint) {
+            for (auto& row : rows_)
+                row.resize(tree_.slots());
+            if constexpr (std::ranges::range<const Footprint>)
+                if (std::size_t(std::ranges::size(footprint)) != std::size_t(std::ranges::size(vertices)))
+                    invalid_argument("nephroid::EyePathMap: " + std::to_string(std::ranges::size(footprint)) +
+                                     " pixel footprints for " + std::to_string(std::ranges::size(vertices)) +
+                                     " vertices; there must be one for each");
+            for (std::size_t i = 0; i < nodes_.size(); ++i) {
+                if (tree_.nodes()[i].leaf == no_leaf)
+                    continue;
+                const std::array<T, 3> squares = nodes_[i].reach;
+                nodes_[i].reach = {};
+                const TreeLeaf leaf = tree_.leaves()[tree_.nodes()[i].leaf];
+                for (std::size_t slot = leaf.first; slot < leaf.first + padded(leaf); ++slot) {
+                    const PixelFootprint<V> its = detail::footprint_of(vertices, footprint, tree_.index(slot));
+                    const bool is_unknown = detail::is_unknown(its);
+                    detail::add_reach(nodes_[i].reach, is_unknown ? squares : detail::reach_of(its));
+                    set_rows(slot, is_unknown
+                                       ? detail::square_rows(normal_at(slot), leaves_[tree_.nodes()[i].leaf].spacing)
+                                       : checked_rows(its, tree_.index(slot)));
+                }
+            }
+        }
+
+        [[nodiscard]] static std::size_t padded(const TreeLeaf& leaf) {
+            return (leaf.size + PointTree<V>::lanes - 1) / PointTree<V>::lanes * PointTree<V>::lanes;
+        }
+
+        [[nodiscard]] V normal_at(std::size_t slot) const {
+            return make_vector<V>(normals_[0][slot], normals_[1][slot], normals_[2][slot]);
+        }
+
+        [[nodiscard]] static FootprintRows<V> checked_rows(const PixelFootprint<V>& footprint, std::uint32_t vertex) {
+            const FootprintRows<V> rows = detail::rows_of(footprint);
+            if (!all_finite(footprint.u) || !all_finite(footprint.v) || !all_finite(rows.u) || !all_finite(rows.v) ||
+                !isfinite(rows.inverse_area) || !(rows.inverse_area > T(0)))
+                invalid_argument("nephroid::EyePathMap: vertex " + std::to_string(vertex) +
+                                 " has a pixel footprint of the sides " + detail::text_of(footprint.u) + " and " +
+                                 detail::text_of(footprint.v) +
+                                 "; they must be finite and span an area, or both be zero where it is not known");
+            return rows;
+        }
+
+        void set_rows(std::size_t slot, const FootprintRows<V>& rows) {
+            using t = vector_traits<V>;
+            rows_[0][slot] = t::x(rows.u), rows_[1][slot] = t::y(rows.u), rows_[2][slot] = t::z(rows.u);
+            rows_[3][slot] = t::x(rows.v), rows_[4][slot] = t::y(rows.v), rows_[5][slot] = t::z(rows.v);
+            rows_[6][slot] = rows.inverse_area;
+        }
+
+        /// Gives the inner nodes the bounds of what is below them.
+        /// @param normals  bounds of the normals, by node; so far of the leaves alone
+        void describe_nodes(std::vector<Box<T>>& normals) {
+            detail::gather_upwards<T>(tree_.nodes(), [&](std::size_t node, std::size_t child) {
+                normals[node].add(normals[child]);
+                detail::add_reach(nodes_[node].reach, nodes_[child].reach);
+            });
+            for (std::size_t i = 0; i < nodes_.size(); ++i)
+                nodes_[i].normals = detail::cone_about(normals[i]);
+        }
+
+        PointTree<V> tree_;
+        std::array<std::vector<T>, 3> normals_;
+        std::array<std::vector<T>, 7> rows_; // of the footprints; empty where there are none
+        std::vector<EyePathLeaf<T>> leaves_;
+        std::vector<EyePathNode<T>> nodes_;
+        T diagonal_ = T(0);
 };
 
-template <std::ranges::random_access_range Vertices, class Position, class Normal>
-EyePathMap(const Vertices&, Position, Normal)
-    -> EyePathMap<std::remove_cvref_t<std::invoke_result_t<Position&, std::ranges::range_reference_t<const Vertices>>>>;
+template <std::ranges::random_access_range Vertices, class Position, class... Others>
+EyePathMap(const Vertices&, Position, Others...)
+    -> EyePathMap<typename detail::ProjectedVector<Vertices, Position>::type>;
 
 } // namespace nephroid

@@ -45,12 +45,9 @@ public:
             least[row] = beyond > T(0) ? beyond : T(0);
             most[row] = middle + reach;
         }
-        const T cosine =
-            t::x(normal_) * leaf.normal[0] + t::y(normal_) * leaf.normal[1] + t::z(normal_) * leaf.normal[2];
-        // Normals are of unit length, so rounding is of that size; where all are the same they give what a vertex does.
-        const T spread = leaf.spread > T(0) ? leaf.spread * (T(1) + rounding) + rounding : T(0);
+        const typename NormalCone<T>::Facing facing = leaf.normals.facing(t::x(normal_), t::y(normal_), t::z(normal_));
         const bool beside = square(least[0]) + square(least[1]) > T(1);
-        return {!beside && cosine > -spread, !(most[2] < T(1)), !(cosine > spread)};
+        return {!beside && facing.some, !(most[2] < T(1)), !facing.all};
     }
 
 private:

@@ -1,27 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a kd-tree is made of: boxes, nodes in depth-first order, leaves.
+/// @file  What a kd-tree is made of: nodes in depth-first order, and leaves.
 #pragma once
 
-#include "nephroid/vector/scalar.hpp"
+#include "nephroid/tree/box.hpp"
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <span>
 
 namespace nephroid {
-
-/// An axis-aligned box relative to a tree's origin.
-template <Scalar T>
-struct Box {
-    std::array<T, 3> low, high;
-
-    [[nodiscard]] bool overlaps(const Box& other) const {
-        // Bitwise: the three axes are tested without a branch each.
-        return bool(int(low[0] <= other.high[0]) & int(other.low[0] <= high[0]) & int(low[1] <= other.high[1]) &
-                    int(other.low[1] <= high[1]) & int(low[2] <= other.high[2]) & int(other.low[2] <= high[2]));
-    }
-};
 
 /// A kd-tree's nodes in depth-first order. A query that misses a node's box goes on at `skip`, one that meets it at
 /// the next node: the walk needs no stack, whatever the depth.
@@ -40,5 +26,37 @@ struct TreeLeaf {
     std::uint32_t first;
     std::uint32_t size;
 };
+
+namespace detail {
+/// Calls visit(leaf) for the leaves below a node, in their order, of which every node on the way is entered. Needs no
+/// room, whatever the depth.
+///
+/// @param enters  enters(node's number, its box) -> whether to go into it
+/// @param visit   visit(leaf)
+template <Scalar T, class Enters, class Visit>
+constexpr void walk_nodes(std::span<const TreeNode<T>> nodes, std::uint32_t root, const Enters& enters, Visit& visit) {
+    for (std::uint32_t i = root; i < nodes[root].skip;) {
+        if (!enters(i, nodes[i].box)) {
+            i = nodes[i].skip;
+            continue;
+        }
+        if (nodes[i].leaf != no_leaf)
+            visit(nodes[i].leaf);
+        ++i;
+    }
+}
+
+/// Gives the inner nodes what holds all that is below them. Children follow their parents: one pass backwards.
+///
+/// @param add  add(node, child): adds to what the node has what the child has
+template <Scalar T, class Add>
+void gather_upwards(std::span<const TreeNode<T>> nodes, const Add& add) {
+    for (std::size_t i = nodes.size(); i-- > 0;)
+        if (nodes[i].leaf == no_leaf) {
+            add(i, i + 1);
+            add(i, std::size_t(nodes[i + 1].skip));
+        }
+}
+} // namespace detail
 
 } // namespace nephroid

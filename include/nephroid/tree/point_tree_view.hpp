@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+/// @file  A tree over points, as whoever looks points up in it sees it: pointers alone, which a device can be given.
+#pragma once
+
+#include "nephroid/tree/nearest_leaf.hpp"
+#include "nephroid/tree/nearest_search.hpp"
+#include "nephroid/tree/volume.hpp"
+#include "nephroid/vector/algebra.hpp"
+
+namespace nephroid {
+
+/// A tree over points. Trivially copyable, and refers to arrays that a PointTree owns, or to copies of them elsewhere.
+template <Vector3 V>
+class PointTreeView {
+public:
+    using T = scalar_t<V>;
+    static constexpr std::size_t lanes = 16;     ///< leaves start at multiples of this many slots
+    static constexpr std::size_t leaf_size = 64; ///< points in a leaf at most
+
+    /// What there is to copy for a tree that is looked up elsewhere.
+    struct Arrays {
+        std::array<T, 3> origin;
+        std::span<const TreeNode<T>> nodes;
+        std::span<const detail::WideNode<T>> wide_nodes;
+        std::span<const TreeLeaf> leaves;
+        std::span<const std::uint32_t> index;
+        std::array<const T*, 3> coordinates; ///< as many as indices
+    };
+
+    explicit constexpr PointTreeView(const Arrays& arrays) : arrays_(arrays) {}
+
+    [[nodiscard]] constexpr const Arrays& arrays() const { return arrays_; }
+    [[nodiscard]] constexpr bool empty() const { return arrays_.nodes.empty(); }
+    [[nodiscard]] constexpr V origin() const {
+        return make_vector<V>(arrays_.origin[0], arrays_.origin[1], arrays_.origin[2]);
+    }
+    /// About all points, relative to the origin; low > high when there are none.
+    [[nodiscard]] constexpr Box<T> bounds() const { return empty() ? detail::empty_box<T>() : arrays_.nodes[0].box; }
+    [[nodiscard]] constexpr std::span<const TreeNode<T>> nodes() const { return arrays_.nodes; }
+    [[nodiscard]] constexpr std::span<const TreeLeaf> leaves() const { return arrays_.leaves; }
+    /// Number of slots of the leaf order, repeated ones included.
+    [[nodiscard]] constexpr std::size_t slots() const { return arrays_.index.size(); }
+    /// The point in a slot: its index as the user counts.
+    [[nodiscard]] constexpr std::uint32_t index(std::size_t slot) const { return arrays_.index[slot]; }
+    /// Coordinates by slot, relative to the origin.
+    [[nodiscard]] constexpr const T* x() const { return arrays_.coordinates[0]; }
+    [[nodiscard]] constexpr const T* y() const { return arrays_.coordinates[1]; }
+    [[nodiscard]] constexpr const T* z() const { return arrays_.coordinates[2]; }
+
+    /// A world position relative to the origin.
+    [[nodiscard]] constexpr V relative(const V& position) const { return position - origin(); }
+
+    /// Calls visit(leaf) for every leaf whose box the volume overlaps, in leaf order.
+    ///
+    /// @param volume  relative to the origin
+    template <class Q, class Visit>
+        requires detail::MustBeVolume<Q, T>
+    void visit_leaves(const Q& volume, Visit&& visit) const {
+        visit_leaves(
+            volume, [](std::uint32_t, const Box<T>&) { return true; }, visit);
+    }
+    template <class Visit>
+    void visit_leaves(const Box<T>& box, Visit&& visit) const {
+        detail::visit_overlapping(arrays_.wide_nodes, arrays_.nodes, box, visit);
+    }
+
+    /// The same, but for the nodes that are not entered, and all below them.
+    ///
+    /// @param enters  enters(node's number, its box) -> whether to go into a node that the volume overlaps
+    template <class Q, class Enters, class Visit>
+        requires detail::MustBeVolume<Q, T>
+    void visit_leaves(const Q& volume, const Enters& enters, Visit&& visit) const {
+        const auto both = [&](std::uint32_t node, const Box<T>& box) {
+            return bool(volume.overlaps(box)) && bool(enters(node, box));
+        };
+        detail::visit_entered(arrays_.wide_nodes, arrays_.nodes, both, visit);
+    }
+
+    /// The leaf whose box is nearest to a point (relative to the origin), by the boxes' Chebyshev distance; the tree
+    /// must not be empty.
+    [[nodiscard]] std::uint32_t nearest_leaf(const V& relative_position) const {
+        return detail::nearest_leaf(arrays_.wide_nodes, arrays_.nodes, components(relative_position));
+    }
+
+    /// Squared distances from a place (relative to the origin) to the points in `lanes` slots from this one on.
+    constexpr void distances2(std::size_t slot, const std::array<T, 3>& place, std::array<T, lanes>& distance2) const {
+        const T* const px = x() + slot;
+        const T* const py = y() + slot;
+        const T* const pz = z() + slot;
+        const T cx = place[0], cy = place[1], cz = place[2];
+#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+        for (std::size_t i = 0; i < lanes; ++i)
+            distance2[i] = square(px[i] - cx) + square(py[i] - cy) + square(pz[i] - cz);
+    }
+
+    /// The points nearest to a place (relative to the origin), in no particular order. None to a place that is no
+    /// number.
+    ///
+    /// @param found   room for as many as are wanted
+    /// @param limit2  only points nearer than the root of this count
+    /// @param accept  accept(slot): whether a point counts at all; asked of points that lie near enough, and of their
+    ///                neighbours in the leaf order, so that it can be vectorised; must not look up nearest points
+    ///                itself
+    /// @return  how many there are: found.size(), or all that count if there are fewer
+    template <class Accept = AcceptAll>
+    std::size_t nearest(const V& relative_position, std::span<Neighbour<T>> found,
+                        T limit2 = std::numeric_limits<T>::infinity(), const Accept& accept = {}) const {
+        const std::array<T, 3> place = components(relative_position);
+        if (empty() || found.empty() || !(place[0] == place[0] && place[1] == place[1] && place[2] == place[2]))
+            return 0;
+        detail::NearestPoints<T> nearest(found.size(), limit2, lanes);
+        detail::NearestSearch<PointTreeView, Accept>(*this, place, accept).run(nearest);
+        return nearest.put(found);
+    }
+
+private:
+    [[nodiscard]] static constexpr std::array<T, 3> components(const V& v) {
+        using t = vector_traits<V>;
+        return {t::x(v), t::y(v), t::z(v)};
+    }
+
+    Arrays arrays_;
+};
+
+} // namespace nephroid

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a tree is searched for: any volume that can say whether it overlaps a box.
+#pragma once
+
+#include "nephroid/tree/normal_cone.hpp"
+
+#include <concepts>
+
+namespace nephroid {
+
+/// `volume.overlaps(box)`: whether some of the volume may lie in the box. It may say yes where none does, and a leaf is
+/// then visited for nothing; never no where some does. Boxes are relative to the tree's origin, and may be flat.
+///
+/// Box is one, ConvexVolume another; a renderer's own needs this member alone.
+template <class Q, class T>
+concept Volume = Scalar<T> && requires(const Q volume, const Box<T> box) {
+    { volume.overlaps(box) } -> std::convertible_to<bool>;
+};
+
+/// A volume that asks for normals, too: `volume.faces(cone)`, whether one of the cone's normals may be what it looks
+/// for. A tree that knows normals then leaves out the nodes where none is; one that does not visits all.
+template <class Q, class T>
+concept FacingVolume = Volume<Q, T> && requires(const Q volume, const NormalCone<T> cone) {
+    { volume.faces(cone) } -> std::convertible_to<bool>;
+};
+
+/// The part of a volume whose surfaces face a direction.
+///
+/// ```cpp
+/// map.visit_leaves(Facing{box, std::array{0.f, 0.f, 1.f}}, visit); // what may be lit from above
+/// ```
+template <Scalar T, Volume<T> Q>
+struct Facing {
+    Q volume;
+    std::array<T, 3> direction; ///< unit, from the surfaces to what they are to face
+
+    [[nodiscard]] constexpr bool overlaps(const Box<T>& box) const { return volume.overlaps(box); }
+    [[nodiscard]] constexpr bool faces(const NormalCone<T>& cone) const {
+        return cone.facing(direction[0], direction[1], direction[2]).some;
+    }
+};
+template <class Q, Scalar T>
+Facing(Q, std::array<T, 3>) -> Facing<T, Q>;
+
+namespace detail {
+template <class Q, class T>
+consteval bool explain_volume() {
+    static_assert(Volume<Q, T>, "nephroid: a volume must have a member overlaps(const Box<T>& box) const -> bool "
+                                "(tree/volume.hpp)");
+    return false;
+}
+
+template <class Q, class T>
+concept MustBeVolume = Volume<Q, T> || explain_volume<Q, T>();
+} // namespace detail
+
+} // namespace nephroid

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+/// @file  Eight children of a kd-tree's node side by side, and the walk through them.
+#pragma once
+
+#include "nephroid/tree/tree_node.hpp"
+
+namespace nephroid::detail {
+
+/// A node with eight children, whose boxes lie together coordinate by coordinate: they are tested in a few vector
+/// instructions, without a branch that goes either way at every node of the binary tree.
+template <Scalar T>
+struct WideNode {
+    static constexpr std::size_t width = 8;
+    static constexpr std::uint32_t leaf_flag = 0x80000000u;
+
+    std::array<std::array<T, width>, 3> low, high; ///< of the children; an absent one has an empty box
+    std::array<std::uint32_t, width> child;        ///< a wide node, or a leaf's number with `leaf_flag`
+    std::array<std::uint32_t, width> source;       ///< the binary tree's node that each child is; `no_leaf` if absent
+
+    /// 1 for each child whose box overlaps this one, else 0.
+    [[nodiscard]] std::array<std::uint32_t, width> overlaps(const Box<T>& box) const {
+        std::array<std::uint32_t, width> overlap;
+#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+        for (std::size_t i = 0; i < width; ++i)
+            overlap[i] = std::uint32_t(int(source[i] != no_leaf) & // a box may be endless
+                                       int(low[0][i] <= box.high[0]) & int(box.low[0] <= high[0][i]) &
+                                       int(low[1][i] <= box.high[1]) & int(box.low[1] <= high[1][i]) &
+                                       int(low[2][i] <= box.high[2]) & int(box.low[2] <= high[2][i]));
+        return overlap;
+    }
+
+    [[nodiscard]] Box<T> box(std::size_t i) const {
+        return {{low[0][i], low[1][i], low[2][i]}, {high[0][i], high[1][i], high[2][i]}};
+    }
+
+    /// The Chebyshev distance of each child's box from a place.
+    [[nodiscard]] std::array<T, width> distances(const std::array<T, 3>& place) const {
+        std::array<T, width> distance;
+        const auto larger = [](const T& a, const T& b) { return a > b ? a : b; };
+        const T x = place[0], y = place[1], z = place[2];
+#pragma GCC unroll 1
+        for (std::size_t i = 0; i < width; ++i) {
+            const T beside_x = larger(low[0][i] - x, x - high[0][i]);
+            const T beside_y = larger(low[1][i] - y, y - high[1][i]);
+            const T beside_z = larger(low[2][i] - z, z - high[2][i]);
+            distance[i] = larger(larger(beside_x, beside_y), larger(beside_z, T(0)));
+        }
+        return distance;
+    }
+};
+
+/// Goes through a tree in order.
+///
+/// @param wide    the tree's wide nodes
+/// @param nodes   its binary nodes
+/// @param choose  choose(wide node) -> 1 for each child to go into, else 0
+/// @param enters  enters(binary node's number, its box) -> whether to go into it: the same of one node
+/// @param visit   visit(leaf)
+template <Scalar T, class Choose, class Enters, class Visit>
+void walk_wide(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> nodes, const Choose& choose,
+               const Enters& enters, Visit& visit) {
+    using Node = WideNode<T>;
+    if (wide.empty())
+        return;
+    struct Pending {
+        std::uint32_t child, source;
+    };
+    // A tree too deep for this (points clustered over hundreds of orders of two) has the rest of a branch walked in
+    // the binary nodes' own order, which needs no room.
+    constexpr std::size_t most_pending = 128;
+    std::array<Pending, most_pending + 8> pending;
+    std::size_t top = 0;
+    std::uint32_t child = 0, source = 0;
+    for (;;) {
+        if ((child & Node::leaf_flag) != 0) {
+            visit(child & ~Node::leaf_flag);
+        } else if (top > most_pending) {
+            walk_nodes(nodes, source, enters, visit);
+        } else {
+            const Node& node = wide[child];
+            const std::array<std::uint32_t, Node::width> chosen = choose(node);
+            for (std::size_t i = Node::width; i-- > 0;) { // the first one on top
+                pending[top] = {node.child[i], node.source[i]};
+                top += chosen[i];
+            }
+        }
+        if (top == 0)
+            return;
+        child = pending[--top].child;
+        source = pending[top].source;
+    }
+}
+
+/// Calls visit(leaf) for every leaf whose box overlaps this one, in leaf order.
+template <Scalar T, class Visit>
+void visit_overlapping(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> nodes, const Box<T>& box,
+                       Visit& visit) {
+    walk_wide(
+        wide, nodes, [&](const WideNode<T>& node) { return node.overlaps(box); },
+        [&](std::uint32_t, const Box<T>& other) { return other.overlaps(box); }, visit);
+}
+
+/// Calls visit(leaf) for every leaf that is entered, as are all nodes above it, in leaf order.
+///
+/// @param enters  enters(binary node's number, its box) -> whether to go into it
+template <Scalar T, class Enters, class Visit>
+void visit_entered(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> nodes, const Enters& enters,
+                   Visit& visit) {
+    const auto choose = [&](const WideNode<T>& node) {
+        std::array<std::uint32_t, WideNode<T>::width> chosen{};
+        for (std::size_t i = 0; i < chosen.size() && node.source[i] != no_leaf; ++i) // absent ones are the last
+            chosen[i] = std::uint32_t(bool(enters(node.source[i], node.box(i))));
+        return chosen;
+    };
+    walk_wide(wide, nodes, choose, enters, visit);
+}
+
+} // namespace nephroid::detail
