@@ -78,6 +78,13 @@ WalkLimits walk_limits(const BuiltinFilm& film) {
     return {.specular_events = film.one_reflection ? 1u : 1u << 16, .roulette_after = 1u << 16};
 }
 
+PixelFootprint<glm::vec3> footprint_of(const BuiltinFilm& film) {
+    const double side = std::sqrt(double(film.samples)); // cells of a grid, or as large where there is no grid
+    const double dx = (film.view.x_max - film.view.x_min) / double(film.width) / side;
+    const double dy = (film.view.y_max - film.view.y_min) / double(film.height) / side;
+    return {{static_cast<float>(dx), 0.f, 0.f}, {0.f, static_cast<float>(dy), 0.f}};
+}
+
 std::vector<FloorVertex> floor_vertices(const BuiltinFilm& film, std::optional<double> ghosts) {
     const double dx = (film.view.x_max - film.view.x_min) / double(film.width);
     const double dy = (film.view.y_max - film.view.y_min) / double(film.height);

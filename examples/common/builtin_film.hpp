@@ -4,6 +4,7 @@
 
 #include "common/builtin_cases.hpp"
 
+#include "nephroid/receiver/pixel_footprint.hpp"
 #include "nephroid/transport/walk.hpp"
 #include "nephroid/vector/glm.hpp"
 
@@ -46,6 +47,9 @@ struct FloorVertex {
 };
 
 [[nodiscard]] inline glm::vec3 upwards(const FloorVertex&) { return {0, 0, 1}; }
+
+/// What each of the film's eye paths stands for: its part of the pixel, along the floor's axes.
+[[nodiscard]] PixelFootprint<glm::vec3> footprint_of(const BuiltinFilm& film);
 
 /// The film's vertices, pixel by pixel.
 /// @param ghosts  for a floor of period 1 along x and y: how far beyond the unit square the film is repeated, so that a

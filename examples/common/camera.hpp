@@ -4,6 +4,7 @@
 
 #include "common/ray.hpp"
 
+#include "nephroid/receiver/pixel_footprint.hpp"
 #include "nephroid/sequence/hash.hpp"
 #include "nephroid/vector/error.hpp"
 
@@ -49,6 +50,18 @@ public:
         return {pose_.position, normalize(pose_.forward + offset)};
     }
 
+    /// What a part of the film sees of a surface's tangent plane.
+    /// @param x, y           its middle, pixels
+    /// @param width, height  of it, pixels
+    [[nodiscard]] PixelFootprint<Vec3<T>> footprint(T x, T y, T width, T height, const Vec3<T>& position,
+                                                    const Vec3<T>& normal) const {
+        const auto at = [&](T right, T up) {
+            const Ray<T> side = ray(x + T(0.5) * right * width, y + T(0.5) * up * height);
+            return PixelRay<Vec3<T>>{side.origin, side.direction};
+        };
+        return footprint_from_rays(position, normal, at(T(-1), T(0)), at(T(1), T(0)), at(T(0), T(-1)), at(T(0), T(1)));
+    }
+
 private:
     Camera(const Pose& pose, bool is_perspective, T half_height, std::size_t width, std::size_t height)
         : pose_(pose), is_perspective_(is_perspective), half_height_(half_height), width_(width), height_(height) {
@@ -68,20 +81,30 @@ struct PixelOffset {
     T x, y; ///< 0 to 1
 };
 
+/// The grid of n cells that a pixel's samples lie in, as square as n allows.
+struct PixelGrid {
+    unsigned columns, rows;
+
+    /// @param n  > 0
+    explicit PixelGrid(unsigned n) {
+        rows = static_cast<unsigned>(std::sqrt(double(n)));
+        while (n % rows != 0)
+            --rows;
+        columns = n / rows;
+    }
+};
+
 /// The k-th of n samples of a pixel: the centre if it is the only one, else jittered within the cells of a grid of
-/// n cells, as square as n allows. A pure function of its arguments.
+/// n cells. A pure function of its arguments.
 template <class T>
 [[nodiscard]] PixelOffset<T> pixel_sample(std::uint64_t pixel, unsigned k, unsigned n, std::uint64_t seed) {
     if (n <= 1)
         return {T(0.5), T(0.5)};
-    unsigned rows = static_cast<unsigned>(std::sqrt(double(n)));
-    while (n % rows != 0)
-        --rows;
-    const unsigned columns = n / rows;
+    const PixelGrid grid(n);
     const std::uint64_t bits = hash_bits(hash_bits(seed, pixel), k);
     const T jitter_x = uniform_from_bits<T>(static_cast<std::uint32_t>(bits));
     const T jitter_y = uniform_from_bits<T>(static_cast<std::uint32_t>(bits >> 32));
-    return {(T(k % columns) + jitter_x) / T(columns), (T(k / columns) + jitter_y) / T(rows)};
+    return {(T(k % grid.columns) + jitter_x) / T(grid.columns), (T(k / grid.columns) + jitter_y) / T(grid.rows)};
 }
 
 } // namespace nephroid::examples

@@ -24,6 +24,8 @@ struct EyeVertex {
     T position_error;       ///< bound on the distance from the surface
     std::uint32_t pixel;    ///< y * width + x, row 0 at the bottom
     F weight;               ///< throughput of the path from the camera × albedo/π / samples, 1 / steradian
+    /// Of the sample's part of the pixel, where the camera sees it directly; not known through mirrors and glass.
+    PixelFootprint<Vec3<T>> footprint{Vec3<T>(T(0)), Vec3<T>(T(0))};
 };
 
 struct EyePathOptions {
@@ -55,11 +57,15 @@ struct EyePath {
 template <class T, Flux F>
 class EyePathTracer {
 public:
-    EyePathTracer(const Scene<T, F>& scene, const EyePathOptions& options, EyePaths<T, F>& result)
-        : scene_(scene), options_(options), result_(result) {}
+    EyePathTracer(const Scene<T, F>& scene, const Camera<T>& camera, const EyePathOptions& options,
+                  EyePaths<T, F>& result)
+        : scene_(scene), camera_(camera), options_(options), grid_(options.samples), result_(result) {}
 
-    /// @param first_pixel  the one that `emitted` starts with in the result
-    void trace(const Ray<T>& ray, std::uint32_t pixel, std::size_t first_pixel) {
+    /// @param film_x, film_y  where the ray goes through the film, pixels
+    /// @param first_pixel     the one that `emitted` starts with in the result
+    void trace(T film_x, T film_y, std::uint32_t pixel, std::size_t first_pixel) {
+        film_x_ = film_x, film_y_ = film_y;
+        const Ray<T> ray = camera_.ray(film_x, film_y);
         pending_.assign(1, {ray.origin, ray.direction, grey<F>(1), {}, 0});
         while (!pending_.empty()) {
             EyePath<T, F> path = pending_.back();
@@ -87,9 +93,13 @@ private:
     void see(const Hit<T>& hit, const EyePath<T, F>& path, std::uint32_t pixel, T side) {
         const double share = 1 / (double(pi<T>) * options_.samples);
         const F weight = path.throughput * scene_.material(hit).color * grey<F>(share);
-        if (flux_traits<F>::power(weight) > 0)
-            result_.vertices.push_back({hit.position, side * hit.geometric_normal, side * hit.shading_normal,
-                                        hit.position_error, pixel, weight});
+        if (!(flux_traits<F>::power(weight) > 0))
+            return;
+        result_.vertices.push_back(
+            {hit.position, side * hit.geometric_normal, side * hit.shading_normal, hit.position_error, pixel, weight});
+        if (path.depth == 0)
+            result_.vertices.back().footprint = camera_.footprint(
+                film_x_, film_y_, T(1) / T(grid_.columns), T(1) / T(grid_.rows), hit.position, hit.geometric_normal);
     }
 
     /// @param side  of the surface that the ray comes from, 1 or -1
@@ -134,8 +144,11 @@ private:
     }
 
     const Scene<T, F>& scene_;
+    const Camera<T>& camera_;
     const EyePathOptions& options_;
+    PixelGrid grid_;
     EyePaths<T, F>& result_;
+    T film_x_ = T(0), film_y_ = T(0);
     std::vector<EyePath<T, F>> pending_;
 };
 
@@ -153,12 +166,12 @@ template <class T, Flux F, Executor E>
     executor(parts.size(), [&](std::size_t part) {
         const std::size_t first = part * chunk, last = (std::min)(first + chunk, pixels);
         parts[part].emitted.resize(last - first, flux_traits<F>::zero());
-        detail::EyePathTracer<T, F> tracer(scene, options, parts[part]);
+        detail::EyePathTracer<T, F> tracer(scene, camera, options, parts[part]);
         for (std::size_t pixel = first; pixel < last; ++pixel)
             for (unsigned k = 0; k < options.samples; ++k) {
                 const PixelOffset<T> at = pixel_sample<T>(pixel, k, options.samples, options.seed);
-                const Ray<T> ray = camera.ray(T(pixel % camera.width()) + at.x, T(pixel / camera.width()) + at.y);
-                tracer.trace(ray, static_cast<std::uint32_t>(pixel), first);
+                tracer.trace(T(pixel % camera.width()) + at.x, T(pixel / camera.width()) + at.y,
+                             static_cast<std::uint32_t>(pixel), first);
             }
     });
 

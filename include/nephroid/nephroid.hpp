@@ -29,6 +29,7 @@
 #include "nephroid/quality/spectrum.hpp"
 #include "nephroid/quality/ssim.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
+#include "nephroid/receiver/footprints_from_film.hpp"
 #include "nephroid/relaxation/detect_features.hpp"
 #include "nephroid/relaxation/relax.hpp"
 #include "nephroid/sequence/halton.hpp"
@@ -37,3 +38,4 @@
 #include "nephroid/smoothing/cross_validation.hpp"
 #include "nephroid/smoothing/second_order/exact_path_derivatives.hpp"
 #include "nephroid/transport/walk.hpp"
+#include "nephroid/tree/convex_volume.hpp"

@@ -52,6 +52,21 @@ TEST_CASE_TEMPLATE("camera: an orthographic one's rays are parallel and span its
     CHECK(close(camera.ray(64, 32).origin, Vec3<T>(2, T(2.5), 5)));
 }
 
+// Straight down onto a floor 5 below a pinhole a pixel is 5 times as large as on the film, wherever it lies there. The
+// rays' directions are rounded, which the floor shows by 5 over the cosine squared, two for each side.
+TEST_CASE_TEMPLATE("camera: what a part of the film sees of a floor is the film's part enlarged", T, float, double) {
+    const T angle = T(0.8), pixel = 2 * std::tan(angle / 2) / 100;
+    const auto camera = Camera<T>::perspective(looking_down<T>(), angle, 200, 100);
+    for (const auto& [x, y] : {std::pair<T, T>{100, 50}, {T(3.5), T(99.5)}, {T(150.25), T(20.75)}}) {
+        const Ray<T> ray = camera.ray(x, y);
+        const Vec3<T> position = ray.origin + (5 / -ray.direction.z) * ray.direction;
+        const auto seen = camera.footprint(x, y, T(0.5), T(1), position, {0, 0, 1});
+        const T tolerance = 40 * rounding<T>;
+        CHECK(nephroid::length(Vec3<T>(seen.u - Vec3<T>(T(2.5) * pixel, 0, 0))) <= tolerance);
+        CHECK(nephroid::length(Vec3<T>(seen.v - Vec3<T>(0, 5 * pixel, 0))) <= tolerance);
+    }
+}
+
 TEST_CASE("camera: what is no film and no angle is refused") {
     const auto pose = looking_down<float>();
     CHECK_THROWS_AS(static_cast<void>(Camera<float>::perspective(pose, 0.5f, 0, 10)), std::invalid_argument);

@@ -60,6 +60,19 @@ TEST_CASE_TEMPLATE("eye paths: each sample of a diffuse floor is a vertex of its
     }
 }
 
+// Pixels are a third wide and have 2 x 2 samples: sixths of the floor, seen from straight above. Positions are of the
+// order of 2, and rounded.
+TEST_CASE_TEMPLATE("eye paths: what the camera sees directly has its sample's part of the pixel", T, float, double) {
+    const Scene<T> scene({{Floor<T>(0), 0}}, {Colors<T>::diffuse(Vec3<T>(T(0.5)))});
+    const auto camera = Camera<T>::orthographic({{0, 0, 2}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, T(1), 8, 6);
+    const auto eye = trace_eye_paths(scene, camera, {.samples = 4}, SerialExecutor{});
+    const T tolerance = 16 * std::numeric_limits<T>::epsilon();
+    for (const auto& vertex : eye.vertices) {
+        CHECK(nephroid::length(Vec3<T>(vertex.footprint.u - Vec3<T>(T(1) / 6, 0, 0))) <= tolerance);
+        CHECK(nephroid::length(Vec3<T>(vertex.footprint.v - Vec3<T>(0, T(1) / 6, 0))) <= tolerance);
+    }
+}
+
 TEST_CASE_TEMPLATE("eye paths: a floor seen from below has its normal below", T, float, double) {
     const Scene<T> scene({{Floor<T>(0), 0}}, {Colors<T>::diffuse(Vec3<T>(1))});
     const auto camera = Camera<T>::orthographic({{0, 0, -2}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, T(1), 1, 1);
@@ -114,6 +127,7 @@ TEST_CASE_TEMPLATE("eye paths: mirrors and metals reflect to what is behind the 
     REQUIRE(eye.vertices.size() == 1);
     CHECK(eye.vertices[0].position.z == 20);
     CHECK(eye.vertices[0].normal == Vec3<T>(0, 0, -1));
+    CHECK(eye.vertices[0].footprint.u == Vec3<T>(0)); // not known
     CHECK(std::abs(eye.vertices[0].weight.y * T(std::numbers::pi) - color.y) < 4 * std::numeric_limits<T>::epsilon());
     CHECK(trace_eye_paths(mirror, plumb_line<T>(), {.max_depth = 0}, SerialExecutor{}).vertices.empty());
 

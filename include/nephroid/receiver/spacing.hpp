@@ -28,7 +28,7 @@ struct FewPoints {
         }
         measure(middle[0], middle[1], middle[2]);
         if (some_equally_far()) {
-            leave_copies_out();
+            skip_duplicates();
             measure(middle[0], middle[1], middle[2]);
         }
     }
@@ -107,7 +107,7 @@ private:
         return met != 0;
     }
 
-    void leave_copies_out() {
+    void skip_duplicates() {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < size; ++i) {
             int met = 0;

@@ -20,13 +20,10 @@ public:
     /// @param nearest  takes the points
     void run(NearestPoints<T>& nearest) const {
         const std::span<const TreeNode<T>> nodes = tree_->nodes();
-        // The nearer child first; the other one waits here. A tree too deep for that (points clustered over hundreds of
-        // orders of two) has the rest of a branch walked in the nodes' own order, which needs no room.
         struct Waiting {
             T distance2;
             std::uint32_t node;
         };
-        constexpr std::size_t most_waiting = 64;
         std::array<Waiting, most_waiting> waiting;
         std::size_t top = 0;
         T distance2 = distance2_to(nodes[0].box);
@@ -54,6 +51,10 @@ public:
     }
 
 private:
+    /// The nearer child is searched first; the other one waits. A tree too deep for that (points clustered over
+    /// hundreds of orders of two) has the rest of a branch walked in the nodes' own order, which needs no room.
+    static constexpr std::size_t most_waiting = 64;
+
     [[nodiscard]] T distance2_to(const Box<T>& box) const {
         const auto larger = [](const T& a, const T& b) { return a > b ? a : b; };
         const auto beside = [&](std::size_t axis) {

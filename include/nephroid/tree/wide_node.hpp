@@ -49,6 +49,10 @@ struct WideNode {
     }
 };
 
+/// A tree too deep for this (points clustered over hundreds of orders of two) has the rest of a branch walked in the
+/// binary nodes' own order, which needs no room.
+inline constexpr std::size_t most_pending = 128;
+
 /// Goes through a tree in order.
 ///
 /// @param wide    the tree's wide nodes
@@ -65,9 +69,6 @@ void walk_wide(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> n
     struct Pending {
         std::uint32_t child, source;
     };
-    // A tree too deep for this (points clustered over hundreds of orders of two) has the rest of a branch walked in
-    // the binary nodes' own order, which needs no room.
-    constexpr std::size_t most_pending = 128;
     std::array<Pending, most_pending + 8> pending;
     std::size_t top = 0;
     std::uint32_t child = 0, source = 0;
