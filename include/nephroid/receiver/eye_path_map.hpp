@@ -134,7 +134,7 @@ public:
                 const std::array<T, 3> squares = nodes_[i].reach;
                 nodes_[i].reach = {};
                 const TreeLeaf leaf = tree_.leaves()[tree_.nodes()[i].leaf];
-                for (std::size_t slot = leaf.first; slot < leaf.first + padded(leaf); ++slot) {
+                for (std::size_t slot = leaf.first; slot < leaf.first + detail::slots_of(leaf); ++slot) {
                     const PixelFootprint<V> its = detail::footprint_of(vertices, footprint, tree_.index(slot));
                     const bool is_unknown = detail::is_unknown(its);
                     detail::add_reach(nodes_[i].reach, is_unknown ? squares : detail::reach_of(its));
@@ -143,10 +143,6 @@ public:
                                        : checked_rows(its, tree_.index(slot)));
                 }
             }
-        }
-
-        [[nodiscard]] static std::size_t padded(const TreeLeaf& leaf) {
-            return (leaf.size + PointTree<V>::lanes - 1) / PointTree<V>::lanes * PointTree<V>::lanes;
         }
 
         [[nodiscard]] V normal_at(std::size_t slot) const {

@@ -41,18 +41,24 @@ template <Scalar T>
 
 /// The bounds of the components of a leaf's normals.
 ///
-/// @param components  by slot
+/// @param components  by slot, those that repeat the last one included
 template <Scalar T>
 [[nodiscard]] Box<T> normal_bounds(const std::array<std::vector<T>, 3>& components, const TreeLeaf& leaf) {
     Box<T> box;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const T* const component = components[axis].data() + leaf.first;
-        T low = component[0], high = low;
-        for (std::size_t i = 1; i < leaf.size; ++i) {
-            low = (std::min)(low, component[i]);
-            high = (std::max)(high, component[i]);
-        }
-        box.low[axis] = low, box.high[axis] = high;
+        std::array<T, leaf_lanes> low, high; // of every sixteenth slot: as many at once as there are lanes
+        std::copy_n(component, leaf_lanes, low.begin());
+        high = low;
+        for (std::size_t first = leaf_lanes; first < leaf.size; first += leaf_lanes)
+#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+            for (std::size_t i = 0; i < leaf_lanes; ++i) {
+                const T x = component[first + i];
+                low[i] = x < low[i] ? x : low[i];
+                high[i] = high[i] < x ? x : high[i];
+            }
+        box.low[axis] = *std::min_element(low.begin(), low.end());
+        box.high[axis] = *std::max_element(high.begin(), high.end());
     }
     return box;
 }

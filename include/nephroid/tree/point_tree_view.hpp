@@ -14,8 +14,8 @@ template <Vector3 V>
 class PointTreeView {
 public:
     using T = scalar_t<V>;
-    static constexpr std::size_t lanes = 16;     ///< leaves start at multiples of this many slots
-    static constexpr std::size_t leaf_size = 64; ///< points in a leaf at most
+    static constexpr std::size_t lanes = detail::leaf_lanes; ///< leaves start at multiples of this many slots
+    static constexpr std::size_t leaf_size = 64;             ///< points in a leaf at most
 
     /// What there is to copy for a tree that is looked up elsewhere.
     struct Arrays {

@@ -28,6 +28,14 @@ struct TreeLeaf {
 };
 
 namespace detail {
+/// Leaves start at multiples of this many slots.
+inline constexpr std::size_t leaf_lanes = 16;
+
+/// How many slots a leaf takes, those that repeat its last point included.
+[[nodiscard]] constexpr std::size_t slots_of(const TreeLeaf& leaf) {
+    return (leaf.size + leaf_lanes - 1) / leaf_lanes * leaf_lanes;
+}
+
 /// Calls visit(leaf) for the leaves below a node, in their order, of which every node on the way is entered. Needs no
 /// room, whatever the depth.
 ///
