@@ -43,7 +43,7 @@ consteval bool explain_projections() {
     return false;
 }
 
-template <class V, class Vertices, class Position, class Normal, class Footprint>
+template <class Footprint, class V, class Vertices, class Position, class Normal>
 concept MustProject = (ProjectsTo<Vertices, Position, V> && ProjectsTo<Vertices, Normal, V> &&
                        GivesFootprints<Vertices, Footprint, V>) ||
                       explain_projections<V, Vertices, Position, Normal, Footprint>();

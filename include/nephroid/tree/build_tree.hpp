@@ -14,8 +14,8 @@ namespace nephroid::detail {
 /// A tree's nodes, and its points in leaf order.
 ///
 /// nanoflann reads points where they lie, through a permutation: fast while there are few nodes, and slow for the many
-/// at the bottom. From `coarse_size` points on they are copied out and divided here, across the longest side of the
-/// box that is tight about them, into leaves that are as full as can be.
+/// at the bottom. From `coarse_size` points on they are copied out and divided here (DividedPoints), into leaves that
+/// are as full as can be.
 template <Scalar T>
 class TreeBuilder {
 public:

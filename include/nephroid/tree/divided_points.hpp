@@ -35,7 +35,7 @@ private:
     }
 };
 
-/// Some of a tree's points, in the order that divisions have brought them into.
+/// Some of a tree's points, which are brought into the tree's order by dividing them again and again.
 template <Scalar T>
 class DividedPoints {
 public:
@@ -50,7 +50,7 @@ public:
     void add(const std::array<T, 3>& place, std::uint32_t index) { points_.push_back({place, index}); }
 
     [[nodiscard]] Box<T> bounds(std::size_t begin, std::size_t end) const {
-        std::array<T, 4> low = points_[begin].at, high = low; // the fourth of no meaning
+        std::array<T, 4> low = points_[begin].at, high = low; // the fourth has no meaning
         const Point* const points = points_.data();
         for (std::size_t i = begin + 1; i < end; ++i)
 #pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
@@ -62,8 +62,8 @@ public:
         return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
     }
 
-    /// Puts those of the lower half first, across the longest side; returns where the others begin. Many are parted in
-    /// the middle; the last few hundred where all leaves below will be as full as can be.
+    /// Puts those of the lower half first, along the longest side of the box; returns where the others begin. Many are
+    /// divided at the box's middle; the last few hundred where all leaves below will be as full as can be.
     [[nodiscard]] std::size_t halve(std::size_t begin, std::size_t end, const Box<T>& box) {
         std::size_t axis = 0;
         for (std::size_t other = 1; other < 3; ++other)
