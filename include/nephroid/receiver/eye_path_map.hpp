@@ -24,7 +24,7 @@ public:
 
     /// @param vertices   a random-access range; may be empty, and is not needed after the call
     /// @param position   projection to V: a member pointer or a callable; finite
-    /// @param normal     projection to V: unit, on the side that the camera sees; photons on the other side do not count
+    /// @param normal     projection to V: unit, on the side that the camera sees; photons on the other do not count
     /// @param footprint  projection to PixelFootprint<V>, or a range of as many, or nothing: squares of the spacing.
     ///                   Takes seven scalars a vertex where it is given
     /// Throws std::invalid_argument naming the vertex whose position, normal or footprint is not finite, not of unit

@@ -96,8 +96,8 @@ template <Vector3 V>
     return volume;
 }
 
-/// The frustum about a flight whose radius grows or shrinks evenly: it holds every ball about a place of the flight with
-/// the radius there, and little besides. Six planes, of which four touch the balls at the ends.
+/// The frustum about a flight whose radius grows or shrinks evenly: it holds every ball about a place of the flight
+/// with the radius there, and little besides. Six planes, of which four touch the balls at the ends.
 ///
 /// @param from, to                 relative to the tree's origin
 /// @param radius_from, radius_to   >= 0
