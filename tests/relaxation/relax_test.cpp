@@ -444,9 +444,14 @@ TEST_CASE("relaxation: photons too far apart for squared distances are refused b
     photons = start;
     photons[9].position = {2e19f, 0, 0};
     start = photons;
-    CHECK_THROWS_WITH(
-        run(photons, {}),
-        doctest::Contains("nephroid::relax: photon 9 lies at (2e+19, 0, 0), so far from the others that"));
+    std::string message;
+    try {
+        run(photons, {});
+    } catch (const std::invalid_argument& error) {
+        message = error.what();
+    }
+    CHECK(message.starts_with("nephroid::relax: photon 9 lies at ("));
+    CHECK(message.ends_with(", so far from the others that squared distances overflow; use a larger unit of length"));
     CHECK(same_positions(photons, start));
 }
 
