@@ -65,6 +65,9 @@ bool parse(CLI::App& app, int argc, const char* const* argv) {
     } catch (const CLI::CallForHelp&) {
         std::cout << app.help();
         return false;
+    } catch (const CLI::CallForVersion& version) {
+        std::cout << version.what() << '\n';
+        return false;
     } catch (const CLI::ParseError& error) {
         std::string line = error.what();
         std::ranges::replace(line, '\n', ' ');

@@ -26,6 +26,8 @@ for scene in wave-focused wave-prefocal ring ring-zoom ball ball-point; do
     at_most "($emitted - $accounted) / $emitted" 1e-5 "$scene: the account"
 done
 
+"$caustics" --version | grep -q -x 'nephroid [0-9]*\.[0-9]*\.[0-9]*' || fail "--version: no version"
+
 at_least() { # value, bound, what
     awk "BEGIN { exit !($1 >= $2) }" </dev/null || fail "$3: $1 is below $2"
 }

@@ -3,6 +3,8 @@
 
 #include "common/builtin_film.hpp"
 
+#include "nephroid/version.hpp"
+
 #include <CLI/CLI.hpp>
 
 #include <cmath>
@@ -27,6 +29,11 @@ const Names<bool> reflections = {{"one", true}, {"any", false}};
     if (text.empty() || *end != '\0')
         throw UsageError("--smoothing: '" + text + "' is neither auto nor cross-validated nor a number");
     return s;
+}
+
+[[nodiscard]] std::string version_text() {
+    return "nephroid " + std::to_string(NEPHROID_VERSION_MAJOR) + '.' + std::to_string(NEPHROID_VERSION_MINOR) + '.' +
+           std::to_string(NEPHROID_VERSION_PATCH);
 }
 
 void check(const Options& options) {
@@ -54,6 +61,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     CLI::App app("Renders caustics by photon differential splatting and says how wrong they are.", "caustics");
     app.add_option("scene", options.scene, "A built-in case (" + builtin_names() + ") or a .glb or .gltf file")
         ->required();
+    app.set_version_flag("--version", version_text());
     std::string photons = "20000", emit, size = "512", seed = "0";
     app.add_option("--photons", photons, "Caustic photons wanted [20000]; a pilot pass finds how many to emit");
     app.add_option("--emit", emit, "Photons to emit, instead of --photons");
