@@ -2,6 +2,8 @@
 /// @file  The domain that a light emits from: what places a photon in it, where its map is smooth, where it ends.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

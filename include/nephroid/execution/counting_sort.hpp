@@ -2,6 +2,8 @@
 /// @file  A counting sort that several threads share: stable, and the same to the bit whoever runs it.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 #include <cstddef>
 #include <span>
 #include <utility>

@@ -2,6 +2,8 @@
 /// @file  Bounds on a photon's path.
 #pragma once
 
+#include "nephroid/version.hpp"
+
 namespace nephroid {
 
 /// Bounds on a path. What they cut off is counted as Fate::terminated.
