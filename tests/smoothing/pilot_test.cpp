@@ -365,8 +365,8 @@ TEST_CASE("second order: dual numbers bring the derivative of what a straight ma
     CHECK(furthest <= 1e-6 * largest); // as in dual_caustic_test.cpp, and S = 25 to rounding only
 }
 
-// What a lamp draws besides its coordinates is no reason to lose its photons' neighbours: each splat lies where the same
-// photon of the plain sun does.
+// What a lamp draws besides its coordinates is no reason to lose its photons' neighbours: each splat lies where that of
+// the plain sun does.
 TEST_CASE_TEMPLATE("second order: a light that draws a wavelength as well keeps its fields", T, float, double) {
     using V = Vec<T>;
     const auto placed = [](const auto& light) {
