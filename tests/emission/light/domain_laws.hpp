@@ -38,8 +38,8 @@ template <class L>
     return most;
 }
 
-/// How much slopes on both sides of a point differ, along one coordinate: |f(x + h) − 2 f(x) + f(x − h)| / h. Where f
-/// is smooth it vanishes with h.
+/// How much slopes on both sides of a point differ, along one coordinate: |f(x + h) − 2 f(x) + f(x − h)| / h. Where
+/// f is smooth it vanishes with h.
 template <class L, class Point>
 [[nodiscard]] double bend_at(const L& light, const Point& point, const Point& step, double h) {
     Point before = point, after = point;
