@@ -31,8 +31,8 @@ namespace nephroid {
 /// @return  what became of the flux, and counts
 /// Throws std::invalid_argument for zero photons, a smoothing that is not positive, and bounds of `SecondOrder` that
 /// cannot be.
-/// Memory: the sums, one batch, and the pilot photons of second-order splatting, whatever the number of photons; while a
-/// smoothing is chosen for lights without cells (smoothing/cross_validation.hpp), the sums twice.
+/// Memory: the sums, one batch, and the pilot photons of second-order splatting, whatever the number of photons; while
+/// a smoothing is chosen for lights without cells (smoothing/cross_validation.hpp), the sums twice.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
                  detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>>)

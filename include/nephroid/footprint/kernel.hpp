@@ -4,7 +4,8 @@
 /// A kernel is a small type with
 ///   - `operator()(r2)` for the squared radius r2 = |x|² >= 0: k >= 0, zero for r2 >= 1, and ∫ k over the disk = 1.
 ///     It should be free of branches (`keep_if`): it is called in a loop that the compiler vectorises;
-///   - `second_moment`: ∫ x² k over the disk, the variance along one axis. The pixel filter and second order need it.
+///   - `second_moment`: ∫ x² k over the disk, the variance along one axis. The pixel filter and second order need
+///     it.
 ///
 /// ```cpp
 /// struct Triweight { // 4/π (1 − r²)³

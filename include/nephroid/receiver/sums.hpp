@@ -20,8 +20,8 @@ namespace nephroid {
 struct Irradiance {};
 
 /// Another response: response(vertex index, direction of the photon's flight) -> a factor for the photon's irradiance
-/// there: the BRDF f_r(x, −ω_p, ω) times the path's throughput. What is summed up is then radiance. Called from several
-/// threads at once.
+/// there: the BRDF f_r(x, −ω_p, ω) times the path's throughput. What is summed up is then radiance. Called from
+/// several threads at once.
 ///
 /// ```cpp
 /// auto sums = nephroid::sums<Colour>(map, [&](std::size_t vertex, const Vec3& direction) {
@@ -81,8 +81,8 @@ public:
     }
 
     /// The sums at the vertices of one leaf of the map's tree, for who adds light to them: slot i of the tree is at
-    /// i − leaf.first. Behind the last vertex the leaf is filled up to whole lanes (`PointTree::lanes`): what is added
-    /// there is never read. Different leaves may be added to by different threads.
+    /// i − leaf.first. Behind the last vertex the leaf is filled up to whole lanes (`PointTree::lanes`): what is
+    /// added there is never read. Different leaves may be added to by different threads.
     [[nodiscard]] std::span<F> of_leaf(std::uint32_t leaf) { return {by_slot_.data() + first(leaf), size(leaf)}; }
     [[nodiscard]] std::span<const F> of_leaf(std::uint32_t leaf) const {
         return {by_slot_.data() + first(leaf), size(leaf)};

@@ -13,8 +13,8 @@
 
 namespace nephroid::detail {
 
-/// Adds kernel · peak (· response) at the vertices that lie in the splat's outline, near enough to its plane, and face
-/// it.
+/// Adds kernel · peak (· response) at the vertices that lie in the splat's outline, near enough to its plane, and
+/// face it.
 ///
 /// @param meeting  what has to be asked of each vertex
 template <Vector3 V, Flux F, class R, class Kernel>

@@ -13,8 +13,8 @@
 
 namespace nephroid {
 
-/// One photon as the inner loop wants it: x is inside where |row_a · (x − centre)|² + |row_b · (x − centre)|² < 1 and
-/// |row_n · (x − centre)| < 1.
+/// One photon as the inner loop wants it: x is inside where |row_a · (x − centre)|² + |row_b · (x − centre)|² <
+/// 1 and |row_n · (x − centre)| < 1.
 template <Vector3 V, Flux F>
 struct Splat {
     V centre;             ///< relative to the map's origin
