@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <iterator>
 #include <string>
+#include <type_traits>
 
 namespace nephroid {
 
@@ -41,13 +42,16 @@ template <Vector3 V, Flux F, std::size_t N>
     return deposit;
 }
 
+template <class D, class V, class F>
+inline constexpr bool is_deposit_of = false;
+template <class V, class F, std::size_t N>
+inline constexpr bool is_deposit_of<Deposit<V, F, N>, V, F> = true;
+
 /// `photons[i]` is a deposit, `std::size(photons)` how many there are.
 template <class P, class V, class F>
 concept StoresPhotons = requires(const P& photons, std::size_t i) {
     { std::size(photons) } -> std::convertible_to<std::size_t>;
-    { photons[i].position } -> std::convertible_to<const V&>;
-    { photons[i].flux } -> std::convertible_to<const F&>;
-    photons[i].d_position;
+    requires is_deposit_of<std::remove_cvref_t<decltype(photons[i])>, V, F>;
 };
 
 template <class P, class V, class F>
