@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file  The smallest renderer with a caustic: a glass ball above a table, drawn into caustic.pgm.
-#include <nephroid/nephroid.hpp>
+#include <nephroid/caustics.hpp>
+#include <nephroid/differential/curvature.hpp>
+#include <nephroid/emission/light/directional.hpp>
 #include <nephroid/vector/glm.hpp>
 
 #include <glm/geometric.hpp>
@@ -58,16 +60,15 @@ int main() {
         vertices.push_back({{float(i % size) / 256 - 1, float(i / size) / 256 - 1, 0}, {0, 0, 1}, i});
 
     const nephroid::EyePathMap map(vertices, &EyeVertex::position, &EyeVertex::normal);
-    nephroid::PhotonSplatter<Vec, float> splatter(map);
+    auto sums = nephroid::sums<float>(map);
     const nephroid::DirectionalLight<Vec, float> sun(
         {.direction = {0.3f, 0, -1}, .irradiance = 1, .patch = nephroid::BoundingSphere<Vec>{{0, 0, 1.3f}, 1}});
     nephroid::ThreadExecutor threads;
 
-    const auto statistics =
-        nephroid::splat_caustics(Scene{}, sun, splatter, {.count = 50'000}, nephroid::HaltonSequence(), threads);
+    const auto statistics = nephroid::caustics(Scene{}, sun, sums, {.count = 50'000}, threads);
 
     std::vector<float> irradiance(size * size);
-    splatter.for_each([&](std::size_t vertex, float e) { irradiance[vertices[vertex].pixel] += e; });
+    sums.for_each([&](std::size_t vertex, float e) { irradiance[vertices[vertex].pixel] += e; });
 
     std::ofstream picture("caustic.pgm", std::ios::binary);
     picture << "P5 " << size << ' ' << size << " 255\n";

@@ -2,8 +2,8 @@
 #include "nephroid/caustics.hpp"
 
 #include "nephroid/quality/reference/wave.hpp"
+#include "support/discard_excess.hpp"
 #include "support/brute_force.hpp"
-#include "support/first_order.hpp"
 #include "support/foreign_vectors.hpp"
 #include "transport/tiny_scenes.hpp"
 
@@ -20,7 +20,6 @@
 
 using namespace nephroid;
 using tests::check_balance;
-using tests::FirstOrderPolicies;
 using tests::Vec;
 using tests::Vertex;
 
@@ -31,12 +30,12 @@ EyePathMap<V> map_of(const std::vector<Vertex<V>>& vertices) {
     return EyePathMap<V>(vertices, &Vertex<V>::position, &Vertex<V>::normal);
 }
 
-template <class Splatter>
-auto sums(const Splatter& splatter) {
-    std::vector<typename Splatter::flux_type> image;
-    splatter.for_each([&](std::size_t i, const auto& sum) {
+template <class Sums>
+auto image_of(const Sums& sums) {
+    std::vector<typename Sums::flux_type> image;
+    sums.for_each([&](std::size_t i, const auto& sum) {
         if (i >= image.size())
-            image.resize(i + 1, flux_traits<typename Splatter::flux_type>::zero());
+            image.resize(i + 1, flux_traits<typename Sums::flux_type>::zero());
         image[i] = sum;
     });
     return image;
@@ -129,14 +128,14 @@ std::vector<Vertex<Vec<T>>> ceiling() {
 TEST_CASE_TEMPLATE("caustics: under still water the light is as it was above", T, float, double) {
     const auto vertices = floor_of<T>(32, 0.2, 0.8);
     const auto map = map_of(vertices);
-    PhotonSplatter<Vec<T>, T> splatter(map);
+    auto sums = nephroid::sums<T>(map);
     const Statistics account =
-        splat_caustics(still_water<T>(), lamp<T>(), splatter, {.count = 4900, .smoothing = 8}, Grid{70});
+        nephroid::caustics(still_water<T>(), lamp<T>(), sums, {.count = 4900, .smoothing = 8}, Grid{70});
     const double p = 0.6 / 32, r = std::sqrt(64 / (std::numbers::pi * 4900) + 2.0 / 3 * p * p);
     const double tolerance = 48 * 0.8 * std::pow(2 * std::numbers::pi * 70 * r, -3.5) * 8;
     REQUIRE(tolerance < 2.5e-3);
     double furthest = 0;
-    for (const T irradiance : sums(splatter))
+    for (const T irradiance : image_of(sums))
         furthest = (std::max)(furthest, std::abs(double(irradiance) - 1));
     // 4900 fluxes in the type's own precision; 200 kernels are added up at each vertex.
     CHECK(furthest <= tolerance + 200 * double(std::numeric_limits<T>::epsilon()));
@@ -188,22 +187,23 @@ struct WaveErrors {
 };
 
 /// N photons over one period; what lands outside of it is brought back, as the pattern is periodic.
-template <class T, class Policies = SplatPolicies<>>
+template <class T, class Policies = Default>
 WaveErrors render_wave(double amplitude, std::uint64_t photons, double smoothing) {
     constexpr int n = 64, border = 32;
     const auto vertices = floor_of<T>(n + 2 * border, -double(border) / n, 1 + double(border) / n);
     const auto map = map_of(vertices);
-    PhotonSplatter<Vec<T>, T, Policies> splatter(map);
-    const Statistics account = splat_caustics(WaveScene<T>{T(amplitude)}, lamp<T>(), splatter,
-                                              {.count = photons, .smoothing = smoothing}, HaltonSequence{1});
+    auto sums = nephroid::sums<T>(map);
+    const Statistics account =
+        nephroid::caustics(WaveScene<T>{T(amplitude)}, lamp<T>(), sums, {.count = photons, .smoothing = smoothing},
+                           HaltonSequence{1}, Policies{});
     check_balance(account);
     CHECK(account[Fate::splatted].photons == photons);
     std::vector<double> image(n * n);
-    splatter.for_each([&](std::size_t i, const T& sum) {
+    sums.for_each([&](std::size_t i, const T& sum) {
         const std::size_t column = i % (n + 2 * border) % n, row = i / (n + 2 * border) % n; // border is half of n
         image[(row + border) % n * n + (column + border) % n] += double(sum);
     });
-    const auto exact = reference::wave({.amplitude = amplitude, .fresnel = false}, {0, 1, 0, 1, n, n}, 1);
+    const auto exact = reference::wave({.amplitude = amplitude, .fresnel = false}, {0, 1, 0, 1, n, n});
     double squares = 0, sum = 0, exact_sum = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
         squares += square(image[i] - exact[i]);
@@ -237,8 +237,8 @@ TEST_CASE_TEMPLATE("caustics: of a focused wave keeps the energy", T, float, dou
 }
 
 TEST_CASE("caustics: more photons come nearer to the exact picture") {
-    const WaveErrors few = render_wave<float, FirstOrderPolicies>(0.012, 2000, 8),
-                     many = render_wave<float, FirstOrderPolicies>(0.012, 32000, 8);
+    const WaveErrors few = render_wave<float, Published>(0.012, 2000, 8),
+                     many = render_wave<float, Published>(0.012, 32000, 8);
     // A sixteenth of the footprint's area, and of the blur; what remains is the filter and the pixels.
     CHECK(many.relative < few.relative / 3);
 }
@@ -247,11 +247,14 @@ TEST_CASE("caustics: of every fate some and the account balances") {
     const auto vertices = ceiling<float>();
     const auto map = map_of(vertices);
     // The bound, as a multiple of the map's diagonal: below a few footprints' radii.
-    using Policies = SplatPolicies<BiweightKernel, NoPixelFilter, WidenCollapsed, DiscardExcess>;
-    PhotonSplatter<glm::vec3, float, Policies> splatter(map, Policies{.excess = {.diagonals = 0.2}});
+    const auto policies = Default{}
+                              .with_filter(NoPixelFilter{})
+                              .with_collapse(tests::WidenCollapsed{})
+                              .with_excess(tests::DiscardExcess{0.2});
+    auto sums = nephroid::sums<float>(map);
     const PointLight<glm::vec3, float> light({.position = {0.5f, 0.5f, 1}, .intensity = 1});
-    Statistics account =
-        splat_caustics(untidy(), light, splatter, {.count = 20000, .smoothing = 4, .limits = {.roulette_after = 1}});
+    Statistics account = nephroid::caustics(
+        untidy(), light, sums, {.count = 20000, .smoothing = 4, .limits = {.roulette_after = 1}}, policies);
     check_balance(account);
     CHECK(account.emitted.photons == 20000);
     CHECK(account.emitted.flux == doctest::Approx(4 * std::numbers::pi).epsilon(1e-4));
@@ -262,19 +265,19 @@ TEST_CASE("caustics: of every fate some and the account balances") {
         CHECK(account[fate].photons > 0);
     }
     // And what a policy may discard at the other end.
-    using Bare = SplatPolicies<BiweightKernel, NoPixelFilter>;
-    PhotonSplatter<glm::vec3, float, Bare> bare(map);
+    auto bare = nephroid::sums<float>(map);
     struct Focus : tests::SheetScene<float> {
         Scattering<float, float> scatter(const SurfaceHit<glm::vec3, Flat>& hit, const glm::vec3&,
                                          Sampler<HaltonSequence>&) const {
             return {hit.surface == 0 ? Event::reflect : Event::deposit, 1, 1};
         }
     };
-    account = splat_caustics(Focus{untidy()}, NoSpread{light}, bare, {.count = 1000});
+    account = nephroid::caustics(Focus{untidy()}, NoSpread{light}, bare, {.count = 1000},
+                                 Default{}.with_filter(NoPixelFilter{}));
     check_balance(account);
     CHECK(account[Fate::collapsed].photons > 0);
     CHECK(account[Fate::splatted].photons + account[Fate::unseen].photons == 0);
-    for (const float sum : sums(bare))
+    for (const float sum : image_of(bare))
         CHECK(sum == 0);
 }
 
@@ -285,19 +288,19 @@ template <class Policies, class E>
 std::pair<std::vector<float>, Statistics> render_untidy(E&& executor, const std::vector<PhotonPass>& passes) {
     const auto vertices = ceiling<float>();
     const auto map = map_of(vertices);
-    PhotonSplatter<glm::vec3, float, Policies> splatter(map);
+    auto sums = nephroid::sums<float>(map);
     Statistics account;
     for (PhotonPass pass : passes) {
         pass.limits.roulette_after = 1;
-        account += splat_caustics(untidy(), lamp<float>(1.2f), splatter, pass, HaltonSequence{7}, executor);
+        account += nephroid::caustics(untidy(), lamp<float>(1.2f), sums, pass, Policies{}, HaltonSequence{7}, executor);
     }
-    return {sums(splatter), account};
+    return {image_of(sums), account};
 }
 
 } // namespace
 
-TEST_CASE_TEMPLATE("caustics: any number of threads renders the same picture bit for bit", Policies, SplatPolicies<>,
-                   FirstOrderPolicies) {
+TEST_CASE_TEMPLATE("caustics: any number of threads renders the same picture bit for bit", Policies, Default,
+                   Published) {
     const std::vector<PhotonPass> pass{{.count = 6000}};
     const auto [image, account] = render_untidy<Policies>(SerialExecutor{}, pass);
     CHECK(account[Fate::splatted].photons > 500);
@@ -322,19 +325,19 @@ TEST_CASE("caustics: a scene's exception reaches the caller from any of the thre
     };
     const auto vertices = floor_of<float>(8, 0, 1);
     const auto map = map_of(vertices);
-    PhotonSplatter<glm::vec3, float> splatter(map);
+    auto sums = nephroid::sums<float>(map);
     ThreadExecutor executor(3);
     const auto run = [&] {
-        (void)splat_caustics(Throws{still_water<float>()}, lamp<float>(), splatter, {.count = 5000}, HaltonSequence{},
-                             executor);
+        (void)nephroid::caustics(Throws{still_water<float>()}, lamp<float>(), sums, {.count = 5000}, HaltonSequence{},
+                                 executor);
     };
     CHECK_THROWS_WITH_AS(run(), "out of memory", std::runtime_error);
 }
 
 // Photon i is the same in whichever pass it is traced, so a picture may be made in parts that share the total: to first
 // order the same picture, as no photon knows of another.
-TEST_CASE_TEMPLATE("caustics: two passes over the parts make the picture of one bit for bit", Policies,
-                   FirstOrderPolicies, SplatPolicies<>) {
+TEST_CASE_TEMPLATE("caustics: two passes over the parts make the picture of one bit for bit", Policies, Published,
+                   Default) {
     const auto whole = render_untidy<Policies>(SerialExecutor{}, {{.count = 5000}});
     for (const std::uint64_t cut : {1u, 512u, 1000u, 4999u}) {
         CAPTURE(cut);
@@ -350,8 +353,8 @@ TEST_CASE_TEMPLATE("caustics: two passes over the parts make the picture of one 
 }
 
 TEST_CASE("caustics: other photons make another picture") {
-    const auto [image, account] = render_untidy<FirstOrderPolicies>(SerialExecutor{}, {{.count = 2000}});
-    const auto [other, _] = render_untidy<FirstOrderPolicies>(SerialExecutor{}, {{.first = 2000, .count = 2000}});
+    const auto [image, account] = render_untidy<Published>(SerialExecutor{}, {{.count = 2000}});
+    const auto [other, _] = render_untidy<Published>(SerialExecutor{}, {{.first = 2000, .count = 2000}});
     CHECK(other != image);
 }
 
@@ -365,8 +368,8 @@ TEST_CASE("caustics: the callback hears of the progress and can stop it") {
         heard.push_back(done);
         return heard.size() < 3;
     };
-    PhotonSplatter<glm::vec3, float> splatter(map);
-    const Statistics stopped = splat_caustics(still_water<float>(), lamp<float>(), splatter, pass);
+    auto sums = nephroid::sums<float>(map);
+    const Statistics stopped = nephroid::caustics(still_water<float>(), lamp<float>(), sums, pass);
     REQUIRE(heard.size() == 3);
     CHECK(stopped.emitted.photons == heard.back());
     CHECK(heard.back() < count);
@@ -376,10 +379,10 @@ TEST_CASE("caustics: the callback hears of the progress and can stop it") {
     check_balance(stopped);
 
     // The first photons of the sequence: the same as a pass of that many.
-    PhotonSplatter<glm::vec3, float> first_part(map);
-    splat_caustics(still_water<float>(), lamp<float>(), first_part,
-                   {.count = heard.back(), .total = count, .smoothing = 4});
-    CHECK(sums(first_part) == sums(splatter));
+    auto first_part = nephroid::sums<float>(map);
+    nephroid::caustics(still_water<float>(), lamp<float>(), first_part,
+                       {.count = heard.back(), .total = count, .smoothing = 4});
+    CHECK(image_of(first_part) == image_of(sums));
 
     heard.clear();
     pass.count = 3000;
@@ -387,36 +390,36 @@ TEST_CASE("caustics: the callback hears of the progress and can stop it") {
         heard.push_back(done);
         return true;
     };
-    CHECK(splat_caustics(still_water<float>(), lamp<float>(), splatter, pass).emitted.photons == 3000);
+    CHECK(nephroid::caustics(still_water<float>(), lamp<float>(), sums, pass).emitted.photons == 3000);
     CHECK(heard.back() == 3000);
 }
 
 TEST_CASE("caustics: zero photons and impossible footprints are refused") {
     const auto vertices = floor_of<float>(8, 0, 1);
     const auto map = map_of(vertices);
-    PhotonSplatter<glm::vec3, float> splatter(map);
+    auto sums = nephroid::sums<float>(map);
     const auto complaint = [&](const PhotonPass& pass) -> std::string {
         try {
-            (void)splat_caustics(still_water<float>(), lamp<float>(), splatter, pass);
+            (void)nephroid::caustics(still_water<float>(), lamp<float>(), sums, pass);
         } catch (const std::invalid_argument& error) {
             return error.what();
         }
         return "none";
     };
-    CHECK(complaint({}).starts_with("nephroid::splat_caustics: zero photons"));
+    CHECK(complaint({}).starts_with("nephroid::caustics: zero photons"));
     for (const double smoothing :
          {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-        CHECK(complaint({.count = 10, .smoothing = smoothing}).starts_with("nephroid::splat_caustics: smoothing"));
+        CHECK(complaint({.count = 10, .smoothing = smoothing}).starts_with("nephroid::caustics: smoothing"));
     CHECK(complaint({.count = 10}) == "none");
 }
 
 TEST_CASE_TEMPLATE("caustics: without eye path vertices every photon is unseen", T, float, double) {
     const std::vector<Vertex<Vec<T>>> nothing;
     const auto map = map_of(nothing);
-    PhotonSplatter<Vec<T>, T> splatter(map);
-    const Statistics account = splat_caustics(still_water<T>(), lamp<T>(), splatter, {.count = 1000});
+    auto sums = nephroid::sums<T>(map);
+    const Statistics account = nephroid::caustics(still_water<T>(), lamp<T>(), sums, {.count = 1000});
     CHECK(account[Fate::unseen].photons == 1000);
-    CHECK(sums(splatter).empty());
+    CHECK(image_of(sums).empty());
     check_balance(account);
 }
 
@@ -425,13 +428,13 @@ TEST_CASE("caustics: light comes in colours") {
     const auto map = map_of(vertices);
     auto water = still_water<float, glm::vec3>();
     water.sheets[0].weight = {1, 0.5f, 0};
-    PhotonSplatter<glm::vec3, glm::vec3> splatter(map);
-    PhotonSplatter<glm::vec3, float> grey(map);
+    auto sums = nephroid::sums<glm::vec3>(map);
+    auto grey = nephroid::sums<float>(map);
     const auto account =
-        splat_caustics(water, lamp<float, glm::vec3>(2, {1, 1, 1}), splatter, {.count = 4900}, Grid{70});
-    splat_caustics(still_water<float>(), lamp<float>(), grey, {.count = 4900}, Grid{70});
-    const auto colours = sums(splatter);
-    const auto greys = sums(grey);
+        nephroid::caustics(water, lamp<float, glm::vec3>(2, {1, 1, 1}), sums, {.count = 4900}, Grid{70});
+    nephroid::caustics(still_water<float>(), lamp<float>(), grey, {.count = 4900}, Grid{70});
+    const auto colours = image_of(sums);
+    const auto greys = image_of(grey);
     for (std::size_t i = 0; i < colours.size(); ++i)
         REQUIRE(colours[i] == glm::vec3{greys[i], 0.5f * greys[i], 0}); // halves are exact
     CHECK(account[Fate::absorbed].flux == doctest::Approx(0.5).epsilon(1e-5));
@@ -468,15 +471,15 @@ TEST_CASE_TEMPLATE("caustics: are rendered in any vectors", T, float, double) {
         const DirectionalLight<V, T> light(
             {make_vector<V>(0, 0, -1), T(1),
              Parallelogram<V>{make_vector<V>(0, 0, 2), make_vector<V>(1, 0, 0), make_vector<V>(0, 1, 0)}});
-        PhotonSplatter<V, T> splatter(map);
+        auto sums = nephroid::sums<T>(map);
         const Statistics account =
-            splat_caustics(ForeignWater<V>{}, light, splatter, {.count = 900, .smoothing = 5}, Grid{30});
+            nephroid::caustics(ForeignWater<V>{}, light, sums, {.count = 900, .smoothing = 5}, Grid{30});
         check_balance(account);
         // As under still water above: s = 5 on a grid of 1/30, and the filter; ω = 2π 30 r.
         const double r = std::sqrt(25 / (std::numbers::pi * 900) + 2.0 / 3 / 1600);
         const double tolerance = 48 * 0.8 * std::pow(2 * std::numbers::pi * 30 * r, -3.5) * 8;
         REQUIRE(tolerance < 0.02);
-        for (const T irradiance : sums(splatter))
+        for (const T irradiance : image_of(sums))
             CHECK(std::abs(double(irradiance) - 1) <= tolerance);
     });
 }
@@ -491,13 +494,13 @@ struct Lamp { // no power, so no light
 };
 
 template <class S, class L, class P>
-concept Renders = requires(const S& scene, const L& light, P& splatter) {
-    splat_caustics(scene, light, splatter, PhotonPass{});
+concept Renders = requires(const S& scene, const L& light, P& sums) {
+    nephroid::caustics(scene, light, sums, PhotonPass{});
 };
 
 using Water = tests::SheetScene<float>;
 using Sun = DirectionalLight<glm::vec3, float>;
-static_assert(Renders<Water, Sun, PhotonSplatter<glm::vec3, float>>);
+static_assert(Renders<Water, Sun, Sums<glm::vec3, float>>);
 // A wrong call ends in a sentence, not in "no": tests/messages/ reads those sentences. What they are about:
 static_assert(!Light<Lamp>);
 static_assert(!detail::EmitsFor<Sun, glm::dvec3, double>); // another vector

@@ -247,13 +247,12 @@ struct CausticScene {
 // Adds the caustics' irradiance to each pixel's.
 void add_caustics(const renderer::Scene& scene, const std::vector<renderer::Seen>& seen, std::vector<float>& film) {
     const nephroid::EyePathMap map(seen, &renderer::Seen::position, &renderer::Seen::normal);
-    nephroid::PhotonSplatter<Vec3fa, float> splatter(map);
+    auto sums = nephroid::sums<float>(map);
     const nephroid::BoundingSphere<Vec3fa> glass{{0, 0, 1.25f}, 1}; // what the sun is aimed at
     const nephroid::DirectionalLight<Vec3fa, float> sun({.direction = {0, 0, -1}, .irradiance = 1, .patch = glass});
     nephroid::ThreadExecutor threads; // Embree's scenes may be asked by many at a time
-    nephroid::splat_caustics(CausticScene{scene}, sun, splatter, {.count = 50'000, .smoothing = 5},
-                             nephroid::HaltonSequence(), threads);
-    splatter.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
+    nephroid::caustics(CausticScene{scene}, sun, sums, {.count = 50'000, .smoothing = 5}, threads);
+    sums.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
 }
 // adapter ends
 

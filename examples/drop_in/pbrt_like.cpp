@@ -253,11 +253,10 @@ void AddCaustics(const Scene& scene, const std::vector<VisiblePoint>& visible, F
     const auto position = [](const VisiblePoint& v) { return vec(v.p); };
     const auto normal = [](const VisiblePoint& v) { return vec(v.n); };
     const nephroid::EyePathMap map(visible, position, normal);
-    nephroid::PhotonSplatter<Vector3f, RGBSpectrum> splatter(map);
+    auto sums = nephroid::sums<RGBSpectrum>(map);
     nephroid::ThreadExecutor threads; // one per core; the sums are the same for any number
-    nephroid::splat_caustics(CausticScene{scene}, PhotonLights(scene), splatter, {.count = 100'000, .smoothing = 5},
-                             nephroid::HaltonSequence(), threads);
-    splatter.for_each([&](std::size_t i, const RGBSpectrum& irradiance) {
+    nephroid::caustics(CausticScene{scene}, PhotonLights(scene), sums, {.count = 100'000, .smoothing = 5}, threads);
+    sums.for_each([&](std::size_t i, const RGBSpectrum& irradiance) {
         film.AddSplat(visible[i].x, visible[i].y, visible[i].beta * irradiance);
     });
 }

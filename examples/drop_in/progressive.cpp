@@ -159,18 +159,13 @@ struct CausticScene {
     }
 };
 
-// To first order, a photon's footprint depends on no other photon, and so on no pass.
-using FirstOrder =
-    nephroid::SplatPolicies<nephroid::BiweightKernel, nephroid::PixelFilter, nephroid::DiscardCollapsed,
-                            nephroid::BoundMajorRadius, nephroid::DifferentialFootprint, nephroid::FirstOrder>;
-
 // The caustics layer of the viewer. One thread renders; any other may ask for the progress and for a picture.
 struct CausticsLayer {
     static constexpr std::uint64_t photons = 400'000;
     const CausticScene scene;
     renderer::ThreadPool& pool;
-    const nephroid::EyePathMap<float3> map;                            // of what the camera sees
-    nephroid::PhotonSplatter<float3, float, FirstOrder> splatter{map}; // the irradiance there, kept from pass to pass
+    const nephroid::EyePathMap<float3> map;                          // of what the camera sees
+    nephroid::Sums<float3, float> sums = nephroid::sums<float>(map); // the irradiance there, kept from pass to pass
     // Through an upright window before the mirror, as wide as it and as high as its shadow there.
     const nephroid::Parallelogram<float3> window{{-0.0625f, -1, 0}, {0, 2, 0}, {0, 0, 1.25f}};
     const nephroid::DirectionalLight<float3, float> sun{{{0.819152f, 0, -0.573576f}, 1 / 0.573576f, window}};
@@ -193,12 +188,13 @@ struct CausticsLayer {
             done = first + in_this_pass;
             const float missing = float(photons) / float(done); // a photon's flux is its share of all of them
             const std::lock_guard lock(mutex);
-            splatter.for_each([&](std::size_t i, float irradiance) { picture[i] = missing * irradiance; });
+            sums.for_each([&](std::size_t i, float irradiance) { picture[i] = missing * irradiance; });
             return !stop; // false ends the pass
         };
         const nephroid::PhotonPass rest{
             .first = first, .count = photons - first, .total = photons, .smoothing = 6, .progress = progress};
-        nephroid::splat_caustics(scene, sun, splatter, rest, nephroid::HaltonSequence(), on_pool);
+        // To first order, as published: a photon's footprint depends on no other photon, and so on no pass.
+        nephroid::splat_caustics(scene, sun, sums, rest, on_pool);
     }
     std::vector<float> snapshot() {
         const std::lock_guard lock(mutex);

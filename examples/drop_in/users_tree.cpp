@@ -230,13 +230,12 @@ struct CausticScene {
 // Adds the caustics' irradiance to each pixel's.
 void add_caustics(const renderer::World& world, const std::vector<renderer::Seen>& seen, std::vector<float>& film) {
     const nephroid::EyePathMap map(seen, &renderer::Seen::position, &renderer::Seen::normal);
-    nephroid::PhotonSplatter<Vec, float> splatter(map);
+    auto sums = nephroid::sums<float>(map);
     const nephroid::BoundingSphere<Vec> glass{Vec(0, 0, 1.25f), 1}; // what the sun is aimed at
     const nephroid::DirectionalLight<Vec, float> sun({.direction = Vec(0, 0, -1), .irradiance = 1, .patch = glass});
     nephroid::ThreadExecutor threads;
-    nephroid::splat_caustics(CausticScene{world}, sun, splatter, {.count = 50'000, .smoothing = 5},
-                             nephroid::HaltonSequence(), threads);
-    splatter.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
+    nephroid::caustics(CausticScene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads);
+    sums.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
 }
 // adapter ends
 

@@ -177,15 +177,14 @@ struct CausticScene {
 void add_caustics(const renderer::World& world, const std::vector<renderer::Seen>& seen, std::vector<float>& film) {
     // The points that the camera sees, in a tree.
     const nephroid::EyePathMap map(seen, &renderer::Seen::position, &renderer::Seen::normal);
-    nephroid::PhotonSplatter<Vec, float> splatter(map); // and the irradiance at each
+    auto sums = nephroid::sums<float>(map); // and the irradiance at each
     // The sun, aimed at the ball: no photon is wasted on the floor around it.
     const nephroid::DirectionalLight<Vec, float> sun(
         {.direction = {0, 0, -1}, .irradiance = 1, .patch = nephroid::BoundingSphere<Vec>{{0, 0, 1.25f}, 1}});
     nephroid::ThreadExecutor threads; // one per core; the result does not depend on their number
-    nephroid::splat_caustics(CausticScene{world}, sun, splatter, {.count = 50'000, .smoothing = 5},
-                             nephroid::HaltonSequence(), threads);
+    nephroid::caustics(CausticScene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads);
     // A pixel's radiance would be this times albedo / π and the weight of the camera's path.
-    splatter.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
+    sums.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
 }
 // adapter ends
 

@@ -252,13 +252,12 @@ void see(const hittable_list& world, ray r, std::size_t pixel, std::vector<seen_
 void add_caustics(const hittable_list& world, const vec3& sun_direction, const color& sun_color, const sphere& glass,
                   const std::vector<seen_point>& seen, std::vector<color>& image) {
     const nephroid::EyePathMap map(seen, &seen_point::p, &seen_point::normal);
-    nephroid::PhotonSplatter<vec3, color> splatter(map);
+    auto sums = nephroid::sums<color>(map);
     const nephroid::BoundingSphere<vec3> target{glass.center, glass.radius};
     const nephroid::DirectionalLight<vec3, color> sun({sun_direction, sun_color, target});
     nephroid::ThreadExecutor threads;
-    nephroid::splat_caustics(caustic_scene{world}, sun, splatter, {.count = 50'000, .smoothing = 5},
-                             nephroid::HaltonSequence(), threads);
-    splatter.for_each([&](std::size_t i, const color& e) { image[seen[i].pixel] += seen[i].weight * e; });
+    nephroid::caustics(caustic_scene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads);
+    sums.for_each([&](std::size_t i, const color& e) { image[seen[i].pixel] += seen[i].weight * e; });
 }
 // adapter ends
 

@@ -6,7 +6,6 @@
 #include "common/builtin_cases.hpp"
 #include "nephroid/quality/reference/ring.hpp"
 #include "nephroid/quality/reference/wave.hpp"
-#include "support/first_order.hpp"
 #include "support/is_sanitized.hpp"
 
 #include "nephroid/caustics.hpp"
@@ -82,17 +81,17 @@ template <class Sequence>
         pixels.push_back({{float(f.x_min + (f.x_max - f.x_min) * (double(i % size) + 0.5) / size),
                            float(f.y_min + (f.y_max - f.y_min) * (double(i / size) + 0.5) / size), 0.f}});
     const EyePathMap<Vec> map(pixels, &Pixel::position, [](const Pixel&) { return Vec(0, 0, 1); });
-    PhotonSplatter<Vec, float, tests::FirstOrderPolicies> splatter(map);
+    auto sums = nephroid::sums<float>(map);
     const auto error_at = [&](double s) {
-        splatter.clear();
-        (void)splat_caustics(subject.scene, subject.light, splatter,
-                             {.count = emitted, .smoothing = s, .limits = limits}, sequence);
+        sums.clear();
+        (void)splat_caustics(subject.scene, subject.light, sums, {.count = emitted, .smoothing = s, .limits = limits},
+                             sequence);
         std::vector<float> picture(pixels.size());
-        splatter.for_each([&](std::size_t i, float e) { picture[i] = e; });
+        sums.for_each([&](std::size_t i, float e) { picture[i] = e; });
         return relative_error(picture, subject.exact);
     };
-    Outcome outcome{cross_validated_smoothing(subject.scene, subject.light, splatter,
-                                              {.count = emitted, .limits = limits}, sequence),
+    Outcome outcome{cross_validated_smoothing(subject.scene, subject.light, sums, {.count = emitted, .limits = limits},
+                                              Published{}, sequence),
                     0, 0};
     double least = 1e300;
     for (int step = 4; step <= 19; ++step) { // 2 to 27

@@ -44,10 +44,10 @@ struct Energy {
         pixels.push_back({{float(film.x_min + (double(i % size) + 0.5) * dx),
                            float(film.y_min + (double(i / size) + 0.5) * dy), 0.f}});
     const EyePathMap map(pixels, &Pixel::position, [](const Pixel&) { return Vec(0, 0, 1); });
-    const SplatPolicies<> policies{.filter = {filter}};
-    using Splatter = PhotonSplatter<Vec, float>;
-    Splatter splatter(map, policies);
-    std::vector<Splatter::Chunk> chunk(1);
+    const Default policies{.filter = {filter}};
+    auto sums = nephroid::sums<float>(map);
+    detail::Splatter splatter(sums, policies);
+    std::vector<detail::SplatChunk<Vec, float>> chunk(1);
     SerialExecutor executor;
 
     Energy energy;
@@ -68,15 +68,15 @@ struct Energy {
             if (box.low[0] >= bounds.low[0] && box.low[1] >= bounds.low[1] && box.high[0] <= bounds.high[0] &&
                 box.high[1] <= bounds.high[1]) {
                 energy.flux += double(deposit->flux);
-                chunk[0].add(splatter, *deposit, account);
+                splatter.prepare(*deposit, chunk[0], account);
             }
         }
-        if (chunk[0].visits() > 100000 || i + 1 == photons) {
-            splatter.add(std::span<const Splatter::Chunk>(chunk), executor);
+        if (chunk[0].visits().size() > 100000 || i + 1 == photons) {
+            splatter.add(std::span<const detail::SplatChunk<Vec, float>>(chunk), executor);
             chunk[0].clear();
         }
     }
-    splatter.for_each([&](std::size_t, float irradiance) { energy.picture += double(irradiance) * dx * dy; });
+    sums.for_each([&](std::size_t, float irradiance) { energy.picture += double(irradiance) * dx * dy; });
     return energy;
 }
 

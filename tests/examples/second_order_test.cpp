@@ -4,7 +4,6 @@
 #include "common/builtin_cases.hpp"
 #include "nephroid/quality/reference/ring.hpp"
 #include "nephroid/quality/reference/wave.hpp"
-#include "support/first_order.hpp"
 #include "support/is_sanitized.hpp"
 
 #include "nephroid/caustics.hpp"
@@ -64,7 +63,7 @@ struct Quality {
     double relative, rmse, ssim, energy;
 };
 
-template <class Policies = SplatPolicies<>, class Sequence>
+template <class Policies = Default, class Sequence>
 [[nodiscard]] Quality quality_of(std::string_view name, const Sequence& sequence,
                                  std::optional<double> smoothing = {}) {
     const auto scene = builtin_case<float, float>(name, false).value();
@@ -83,12 +82,13 @@ template <class Policies = SplatPolicies<>, class Sequence>
     Policies policies;
     if constexpr (std::derived_from<decltype(policies.order), SecondOrder>)
         policies.order.domain_repeats = scene.periodic;
-    PhotonSplatter<Vec, float, Policies> splatter(map, policies);
-    const Statistics splatted = splat_caustics(scene.scene, scene.light, splatter,
-                                               {.count = emitted, .smoothing = smoothing, .limits = limits}, sequence);
+    auto sums = nephroid::sums<float>(map);
+    const Statistics splatted =
+        nephroid::caustics(scene.scene, scene.light, sums, {.count = emitted, .smoothing = smoothing, .limits = limits},
+                           sequence, policies);
     CHECK(std::abs(splatted.accounted_flux() - splatted.emitted.flux) <= 1e-12 * splatted.emitted.flux);
     std::vector<float> image(size * size);
-    splatter.for_each([&](std::size_t i, float irradiance) { image[pixels[i].index] += irradiance; });
+    sums.for_each([&](std::size_t i, float irradiance) { image[pixels[i].index] += irradiance; });
     const reference::Image truth = exact(name, scene.film);
     const PictureError picture = picture_error(image, truth, size, size);
     return {relative_error(image, truth), picture.rmse, picture.ssim, energy_error(image, truth)};
@@ -105,15 +105,14 @@ TEST_CASE("second order: of a focused wave comes far nearer than plain splats of
     CHECK(second.rmse <= 0.046);
     CHECK(std::abs(second.energy) < 0.001);
     // Plain splats at 3, where they are best by the relative error, and at 5, where they are by the picture's.
-    const Quality sharp = quality_of<tests::FirstOrderPolicies>("wave-focused", HaltonSequence(), 3),
-                  smooth = quality_of<tests::FirstOrderPolicies>("wave-focused", HaltonSequence(), 5);
+    const Quality sharp = quality_of<Published>("wave-focused", HaltonSequence(), 3),
+                  smooth = quality_of<Published>("wave-focused", HaltonSequence(), 5);
     CHECK(second.relative < sharp.relative / 2);
     CHECK(second.rmse < smooth.rmse / 2);
 }
 
 TEST_CASE("second order: curved footprints of few photons draw folds yet more sharply" * doctest::skip(is_sanitized)) {
-    using Curved = SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint,
-                                 CurvedFootprints>;
+    using Curved = decltype(Default{}.with_order(CurvedFootprints{}));
     const Quality bent = quality_of<Curved>("wave-focused", HaltonSequence()),
                   flat = quality_of("wave-focused", HaltonSequence());
     CAPTURE(bent.relative);

@@ -38,7 +38,7 @@ struct OnlyFloat {
 static_assert(Kernel<TriweightKernel, float> && Kernel<TableKernel, double>);
 static_assert(Kernel<OnlyFloat, float>);
 static_assert(!Kernel<OnlyFloat, double>); // would round in the middle of a double's way
-static_assert(!Kernel<NoSecondMoment, float>);
+static_assert(Kernel<NoSecondMoment, float> && !HasSecondMoment<NoSecondMoment>); // the pixel filter wants one
 static_assert(!Kernel<int, float>);
 static_assert(!Kernel<BiweightKernel, int>);
 static_assert(!Kernel<BiweightKernel, std::string>);

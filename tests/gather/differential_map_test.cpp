@@ -3,7 +3,7 @@
 
 #include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/gather/estimate_at.hpp"
-#include "nephroid/splat/photon_splatter.hpp"
+#include "nephroid/splat/splat_photons.hpp"
 
 #include "support/brute_force.hpp"
 #include "support/foreign_vectors.hpp"
@@ -66,15 +66,10 @@ EyePathMap<V> map_of(const std::vector<Vertex<V>>& vertices) {
 template <class V, class F, class Policies>
 std::vector<F> splatted(const EyePathMap<V>& map, const std::vector<Deposit<V, F>>& deposits, const Policies& policies,
                         Statistics& account) {
-    using Splatter = PhotonSplatter<V, F, Policies>;
-    Splatter splatter(map, policies);
-    std::vector<typename Splatter::Chunk> chunks(1);
-    for (const auto& deposit : deposits)
-        chunks[0].add(splatter, deposit, account);
-    SerialExecutor executor;
-    splatter.add(std::span<const typename Splatter::Chunk>(chunks), executor);
+    auto sums = nephroid::sums<F>(map);
+    account = splat(deposits, sums, {}, policies);
     std::vector<F> image(map.tree().slots(), flux_traits<F>::zero());
-    splatter.for_each([&](std::size_t i, const F& sum) { image[i] = sum; });
+    sums.for_each([&](std::size_t i, const F& sum) { image[i] = sum; });
     return image;
 }
 
@@ -114,15 +109,16 @@ TEST_CASE_TEMPLATE("differential map: gathers what the splatter splats and brute
     const double pi = std::numbers::pi;
     SUBCASE("with the pixel filter") {
         check<T>(
-            SplatPolicies<>{}, [&](double r2) { return 3 / pi * (1 - r2) * (1 - r2); }, std::sqrt(2.0 / 3));
+            Published{}, [&](double r2) { return 3 / pi * (1 - r2) * (1 - r2); }, std::sqrt(2.0 / 3));
     }
     SUBCASE("without") {
         check<T>(
-            SplatPolicies<BiweightKernel, NoPixelFilter>{}, [&](double r2) { return 3 / pi * (1 - r2) * (1 - r2); }, 0);
+            Published{}.with_filter(NoPixelFilter{}), [&](double r2) { return 3 / pi * (1 - r2) * (1 - r2); }, 0);
     }
     SUBCASE("with another kernel") {
         check<T>(
-            SplatPolicies<EpanechnikovKernel>{}, [&](double r2) { return 2 / pi * (1 - r2); }, std::sqrt(0.5));
+            Published{}.with_kernel(EpanechnikovKernel{}), [&](double r2) { return 2 / pi * (1 - r2); },
+            std::sqrt(0.5));
     }
 }
 
@@ -134,7 +130,8 @@ TEST_CASE_TEMPLATE("differential map: takes any vector", T, float, double) {
             vertices.push_back({at(0.1 * (i % 10), 0.1 * (i / 10)), make_vector<V>(0, 0, 1)});
         const std::vector<Deposit<V, T>> one{
             {at(0.5, 0.5), make_vector<V>(0, 0, 1), make_vector<V>(0, 0, -1), T(2), {at(1, 0), at(0, 2)}}};
-        const DifferentialMap estimate(one, map_of(vertices), SplatPolicies<EpanechnikovKernel, NoPixelFilter>{});
+        const DifferentialMap estimate(one, map_of(vertices),
+                                       Published{}.with_kernel(EpanechnikovKernel{}).with_filter(NoPixelFilter{}));
         // Semi-axes 1/2 and 1; half way along the first.
         CHECK(double(estimate(at(0.75, 0.5), make_vector<V>(0, 0, 1))) ==
               doctest::Approx(2 / 0.5 * 2 / std::numbers::pi * 0.75));
@@ -170,7 +167,7 @@ TEST_CASE("differential map: is the same bit for bit for any number of threads")
     std::vector<std::vector<float>> images;
     for (const unsigned threads : {1u, 4u}) {
         ThreadExecutor executor(threads);
-        const DifferentialMap estimate(deposits, map, SplatPolicies<>{}, executor);
+        const DifferentialMap estimate(deposits, map, Published{}, executor);
         images.emplace_back(vertices.size());
         estimate_at(vertices, &Vertex<glm::vec3>::position, &Vertex<glm::vec3>::normal, estimate, executor,
                     [&](std::size_t i, float e) { images.back()[i] = e; });

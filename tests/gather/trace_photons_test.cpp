@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/gather/trace_photons.hpp"
 
-#include "nephroid/caustics.hpp"
+#include "nephroid/splat/splat_caustics.hpp"
+#include "nephroid/splat/splat_photons.hpp"
 
 #include "nephroid/emission/light/point.hpp"
 #include "nephroid/sequence/random.hpp"
@@ -70,21 +71,17 @@ TEST_CASE_TEMPLATE("trace photons: stores every photon that a walk deposits", T,
 // The splatter adds up in photon order, so equal deposits give equal sums to the last bit.
 TEST_CASE("trace photons: stores the photons that splatting splats") {
     using V = Vec<float>;
-    using Policies = SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, FixedFootprint>;
     std::vector<Vertex<V>> vertices;
     tests::add_lattice<float>(vertices, 40, 40, 0.1, {-1.95, -1.95, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
     const EyePathMap<V> map(vertices, &Vertex<V>::position, &Vertex<V>::normal);
     const PhotonPass pass{.count = 5000};
     const auto traced = trace_photons(pond<float>(), lamp<float>(), pass);
-    PhotonSplatter<V, float, Policies> splatter(map, Policies{.shape = {0.2}}), stored(map, Policies{.shape = {0.2}});
-    const Statistics account = splat_caustics(pond<float>(), lamp<float>(), splatter, pass);
-    using Chunk = typename PhotonSplatter<V, float, Policies>::Chunk;
-    std::vector<Chunk> chunks(1);
-    Statistics ignored;
-    for (const auto& deposit : traced.deposits)
-        chunks[0].add(stored, deposit, ignored);
-    SerialExecutor executor;
-    stored.add(std::span<const Chunk>(chunks), executor);
+    const auto disks = Published{}.with_shape(FixedFootprint{0.2});
+    auto splatter = nephroid::sums<float>(map), stored = nephroid::sums<float>(map);
+    const Statistics account = splat_caustics(pond<float>(), lamp<float>(), splatter, pass, disks);
+    const Statistics of_stored = splat(traced.deposits, stored, {}, disks);
+    CHECK(of_stored[Fate::splatted].photons == account[Fate::splatted].photons);
+    CHECK(of_stored[Fate::unseen].flux == account[Fate::unseen].flux);
     std::vector<float> one(vertices.size()), other(vertices.size());
     splatter.for_each([&](std::size_t i, float e) { one[i] = e; });
     stored.for_each([&](std::size_t i, float e) { other[i] = e; });
@@ -115,10 +112,11 @@ TEST_CASE("splatting with a fixed footprint needs no tangents and gives the same
     std::vector<Vertex<V>> vertices;
     tests::add_lattice<float>(vertices, 40, 40, 0.1, {-1.95, -1.95, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
     const EyePathMap<V> map(vertices, &Vertex<V>::position, &Vertex<V>::normal);
-    using Policies = SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, FixedFootprint>;
-    PhotonSplatter<V, float, Policies> whole(map, Policies{.shape = {0.3}}), bare(map, Policies{.shape = {0.3}});
-    (void)splat_caustics(pond<float>(), lamp<float>(), whole, {.count = 3000});
-    const Statistics account = splat_caustics(pond<float>(), WithoutTangents(lamp<float>()), bare, {.count = 3000});
+    const auto disks = Published{}.with_shape(FixedFootprint{0.3});
+    auto whole = nephroid::sums<float>(map), bare = nephroid::sums<float>(map);
+    (void)splat_caustics(pond<float>(), lamp<float>(), whole, {.count = 3000}, disks);
+    const Statistics account =
+        splat_caustics(pond<float>(), WithoutTangents(lamp<float>()), bare, {.count = 3000}, disks);
     std::vector<float> one(vertices.size()), other(vertices.size());
     whole.for_each([&](std::size_t i, float e) { one[i] = e; });
     bare.for_each([&](std::size_t i, float e) { other[i] = e; });

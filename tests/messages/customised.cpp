@@ -81,16 +81,15 @@ struct DiscardNeedles { // footprint/policies.hpp
 };
 
 int main() {
-    using Policies =
-        nephroid::SplatPolicies<Triweight, nephroid::PixelFilter, nephroid::DiscardCollapsed, DiscardNeedles>;
-    nephroid::PhotonSplatter<V, Colour, Policies> splatter(map);
+    const auto policies = nephroid::Default{}.with_kernel(Triweight{}).with_excess(DiscardNeedles{});
+    auto sums = nephroid::sums<Colour>(map, [](std::size_t, const Vec3& direction) { return -direction.z; });
     const auto executor = [](std::size_t count, auto&& task) { // execution/executor.hpp
         for (std::size_t i = 0; i < count; ++i)
             task(i);
     };
-    nephroid::splat_caustics(Adapter{}, MyLaser{Vec3(0, 0, 1), Vec3(0, 0, -1), 1, 1}, splatter, {.count = 16},
-                             MySequence{}, executor);
+    nephroid::caustics(Adapter{}, MyLaser{Vec3(0, 0, 1), Vec3(0, 0, -1), 1, 1}, sums, {.count = 16}, policies,
+                       MySequence{}, executor);
     float film = 0;
-    splatter.for_each([&](std::size_t, const Colour& irradiance) { film += irradiance; }); // receiver/sink.hpp
+    sums.for_each([&](std::size_t, const Colour& irradiance) { film += irradiance; }); // receiver/sink.hpp
     return film >= 0 ? 0 : 1;
 }

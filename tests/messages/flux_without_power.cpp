@@ -9,5 +9,5 @@ struct Spectrum {
     Spectrum operator*(float) const { return *this; }
 };
 
-using Wrong = nephroid::PhotonSplatter<V, Spectrum>;
+using Wrong = nephroid::Sums<V, Spectrum>;
 int main() { return int(sizeof(Wrong)); }

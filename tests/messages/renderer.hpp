@@ -30,6 +30,6 @@ inline const nephroid::DirectionalLight<V, float>
 
 template <class S = Scene, class L = nephroid::DirectionalLight<V, float>, class Q = nephroid::HaltonSequence>
 void render(const S& scene = {}, const L& light = sun, const Q& sequence = Q{}) {
-    nephroid::PhotonSplatter<V, float> splatter(map);
-    nephroid::splat_caustics(scene, light, splatter, {.count = 1}, sequence);
+    auto sums = nephroid::sums<float>(map);
+    nephroid::caustics(scene, light, sums, {.count = 1}, sequence);
 }

@@ -3,5 +3,5 @@
 #include "messages/renderer.hpp"
 
 int main() {
-    nephroid::PhotonSplatter<V, float>(map).for_each([](Vertex&, float) {});
+    nephroid::sums<float>(map).for_each([](Vertex&, float) {});
 }

@@ -104,7 +104,7 @@ TEST_CASE_TEMPLATE("divergence: tangents between two small balls outgrow the sca
                 CHECK(all_finite(d));
                 CHECK(abs(d.x) + abs(d.y) <= T(4) * longest_tangent<T>);
             }
-            const auto outcome = make_splat(*deposit, map, SplatPolicies<>{});
+            const auto outcome = make_splat(*deposit, map, Published{});
             CHECK(outcome.fate == Fate::splatted);
             REQUIRE(outcome.splat.has_value());
             const double exact = 1e-3 * std::pow(2 / double(radius), double(reflections)); // at least
@@ -165,7 +165,7 @@ TEST_CASE_TEMPLATE("divergence: a ray that lies in its surface ends in the accou
         }
         for (const Vec<T>& d_position : deposit->d_position)
             CHECK(all_finite(d_position));
-        const auto outcome = make_splat(*deposit, map, SplatPolicies<>{});
+        const auto outcome = make_splat(*deposit, map, Published{});
         CHECK(outcome.fate == Fate::splatted);
         REQUIRE(outcome.splat.has_value());
         CHECK(all_finite(outcome.splat->row_a));

@@ -362,15 +362,14 @@ TEST_CASE_TEMPLATE("random scenes: every splat is finite and the whole pass bala
         const UnwatchedScene<T> scene{world.scene()};
         const auto vertices = world.vertices();
         const EyePathMap map(vertices, &World<T>::Vertex::position, &World<T>::Vertex::normal);
-        PhotonSplatter<V, V> splatter(map);
+        auto sums = nephroid::sums<V>(map);
         const Traps traps;
-        const Statistics account =
-            splat_caustics(scene, lights, splatter, {.count = photons_per_world, .smoothing = 10});
+        const Statistics account = caustics(scene, lights, sums, {.count = photons_per_world, .smoothing = 10});
         if (exceptions_are_kept)
             CHECK(std::fetestexcept(FE_INVALID) == 0);
         CHECK(std::abs(account.emitted.flux - account.accounted_flux()) <= account_rounding<T> * account.emitted.flux);
         bool finite = true;
-        splatter.for_each(
+        sums.for_each(
             [&](std::size_t, const V& e) { finite = finite && all_finite(e) && e.x >= 0 && e.y >= 0 && e.z >= 0; });
         CHECK(finite);
         splatted += account[Fate::splatted].photons;

@@ -79,3 +79,8 @@ grep -q 'nephroid::SheetField::' symbols.txt || fail "no symbols of the sun's fo
 for unused in AreaField:: AreaFit:: AreaCells:: smoothing_without_cells; do
     ! grep -q "nephroid::.*$unused" symbols.txt || fail "$unused is compiled for a sun"
 done
+
+# Nor anything of second order in one that calls the published method.
+sed 's#nephroid::caustics(#nephroid::splat_caustics(#; s#nephroid/caustics.hpp#nephroid/splat/splat_caustics.hpp#' "$root/examples/drop_in.cpp" >published.cpp
+"$cxx" $flags -MMD -MF published.d -O0 -fno-inline -c published.cpp -o published.o
+! grep -q 'nephroid/smoothing/' published.d || fail "the published method includes second order"

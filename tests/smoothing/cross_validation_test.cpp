@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "nephroid/smoothing/cross_validation.hpp"
+#include "nephroid/smoothing/cross_validated_smoothing.hpp"
 
-#include "support/first_order.hpp"
 #include "support/foreign_vectors.hpp"
 #include "support/glass_ball.hpp"
 #include "support/space.hpp"
@@ -24,7 +23,6 @@
 using namespace nephroid;
 using detail::QuarterPictures;
 using tests::Draws;
-using tests::FirstOrderPolicies;
 using tests::floor_of;
 using tests::map_of;
 using tests::Vec;
@@ -67,10 +65,10 @@ template <class Policies, class L, class S, class E = SerialExecutor>
     using F = typename L::flux_type;
     const auto vertices = floor_of<V>(32);
     const EyePathMap<V> map = map_of(vertices);
-    PhotonSplatter<V, F, Policies> splatter(map);
-    (void)splat_caustics(scene, light, splatter, pass, HaltonSequence(1), executor);
+    auto sums = nephroid::sums<F>(map);
+    (void)nephroid::caustics(scene, light, sums, pass, Policies{}, HaltonSequence(1), executor);
     std::vector<F> picture(vertices.size());
-    splatter.for_each([&](std::size_t i, const F& e) { picture[i] = e; });
+    sums.for_each([&](std::size_t i, const F& e) { picture[i] = e; });
     return picture;
 }
 
@@ -80,8 +78,8 @@ template <class L, class S, class Sequence = HaltonSequence, class E = SerialExe
     using V = typename L::vector;
     const auto vertices = floor_of<V>(side);
     const EyePathMap<V> map = map_of(vertices);
-    const PhotonSplatter<V, typename L::flux_type> splatter(map);
-    return cross_validated_smoothing(scene, light, splatter, pass, sequence, executor);
+    const auto sums = nephroid::sums<typename L::flux_type>(map);
+    return cross_validated_smoothing(scene, light, sums, pass, sequence, executor);
 }
 
 /// About normal: of mean 0 and variance 1.
@@ -222,11 +220,11 @@ TEST_CASE_TEMPLATE("cross-validation: photons of a light that nothing is known o
     using V = Vec<T>;
     const Undescribed<DirectionalLight<V, T>> light{sun<V>()};
     PhotonPass pass{.count = 3000};
-    const auto second = render<SplatPolicies<>>(ball<V>(), light, pass);
+    const auto second = render<Default>(ball<V>(), light, pass);
     pass.smoothing = chosen_for(ball<V>(), light, pass);
     CHECK(*pass.smoothing > 2.5);
     CHECK(*pass.smoothing < 20);
-    const auto first = render<FirstOrderPolicies>(ball<V>(), light, pass);
+    const auto first = render<Published>(ball<V>(), light, pass);
     double furthest = 0, brightest = 0;
     for (std::size_t i = 0; i < first.size(); ++i) {
         furthest = (std::max)(furthest, std::abs(double(first[i]) - double(second[i])));
@@ -242,8 +240,8 @@ TEST_CASE("cross-validation: lights that are known are splatted as without the u
     using Known = DirectionalLight<V, double>;
     using Set = LightSet<Known, Undescribed<Known>>;
     const Set both({Set::AnyLight(sun<V>()), Set::AnyLight(Undescribed<Known>{sun<V>()})});
-    const auto picture = render<SplatPolicies<>>(ball<V>(), both, {.count = 4000});
-    const auto known = render<SplatPolicies<>>(ball<V>(), sun<V>(), {.count = 2000});
+    const auto picture = render<Default>(ball<V>(), both, {.count = 4000});
+    const auto known = render<Default>(ball<V>(), sun<V>(), {.count = 2000});
     double sum = 0, of_known = 0;
     for (std::size_t i = 0; i < known.size(); ++i)
         sum += picture[i], of_known += known[i];
@@ -269,8 +267,8 @@ TEST_CASE("cross-validation: too few photons or none in view give the default") 
     for (auto& vertex : away)
         vertex.position.x += 100;
     const auto map = map_of(away);
-    const PhotonSplatter<V, double> splatter(map);
-    CHECK(cross_validated_smoothing(ball<V>(), sun<V>(), splatter, {.count = 3000}) == default_smoothing);
+    const auto sums = nephroid::sums<double>(map);
+    CHECK(cross_validated_smoothing(ball<V>(), sun<V>(), sums, {.count = 3000}) == default_smoothing);
 }
 
 TEST_CASE("cross-validation: a pass of no photons is refused") {
@@ -286,7 +284,7 @@ TEST_CASE("cross-validation: a longer pass takes a larger smoothing of smaller f
     using V = Vec<double>;
     const auto vertices = floor_of<V>(32);
     const auto map = map_of(vertices);
-    const PhotonSplatter<V, double> splatter(map);
+    const auto sums = nephroid::sums<double>(map);
     const RandomSequence sequence(1);
     constexpr std::size_t count = 3000;
     SerialExecutor executor;
@@ -296,7 +294,7 @@ TEST_CASE("cross-validation: a longer pass takes a larger smoothing of smaller f
             Statistics account;
             return walk(ball<V>(), sun<V>().emit(sampler, Spread<double>{photons, 1}), sampler, {}, account);
         };
-        return detail::cross_validated(splatter, count, photons, false, deposit_of, executor);
+        return detail::cross_validated(sums, Default{}, count, photons, false, deposit_of, executor);
     };
     const double same = chosen(count), longer = chosen(64 * count);
     CHECK(longer == doctest::Approx(4 * same).epsilon(1e-9));

@@ -4,7 +4,6 @@
 
 #include "emission/light/coloured_sun.hpp"
 
-#include "support/first_order.hpp"
 #include "support/foreign_vectors.hpp"
 #include "support/glass_ball.hpp"
 #include "transport/tiny_scenes.hpp"
@@ -25,7 +24,6 @@
 
 using namespace nephroid;
 using tests::check_balance;
-using tests::FirstOrderPolicies;
 using tests::Floor;
 using tests::floor_of;
 using tests::GlassBall;
@@ -77,17 +75,17 @@ struct Picture {
     Statistics account;
 };
 
-template <class Policies = SplatPolicies<>, class S, class L, class Sequence = HaltonSequence, class E = SerialExecutor>
+template <class Policies = Default, class S, class L, class Sequence = HaltonSequence, class E = SerialExecutor>
 [[nodiscard]] auto render(const S& scene, const L& light, const PhotonPass& pass,
                           const Sequence& sequence = Sequence(1), E&& executor = E{}, const Policies& policies = {}) {
     using V = typename L::vector;
     using F = typename L::flux_type;
     const Floor<V> vertices = floor_of<V>(24);
     const EyePathMap<V> map = map_of(vertices);
-    PhotonSplatter<V, F, Policies> splatter(map, policies);
+    auto sums = nephroid::sums<F>(map);
     Picture<F> picture{std::vector<F>(vertices.size(), flux_traits<F>::zero()), {}};
-    picture.account = splat_caustics(scene, light, splatter, pass, sequence, executor);
-    splatter.for_each([&](std::size_t i, const F& e) { picture.irradiance[i] = e; });
+    picture.account = nephroid::caustics(scene, light, sums, pass, policies, sequence, executor);
+    sums.for_each([&](std::size_t i, const F& e) { picture.irradiance[i] = e; });
     return picture;
 }
 
@@ -99,20 +97,20 @@ template <class L, class S>
     using T = scalar_t<V>;
     const Floor<V> vertices = floor_of<V>(24);
     const EyePathMap<V> map = map_of(vertices);
-    using Splatter = PhotonSplatter<V, F, FirstOrderPolicies>;
-    Splatter splatter(map);
-    std::vector<typename Splatter::Chunk> chunk(1);
+    auto sums = nephroid::sums<F>(map);
+    detail::Splatter splatter(sums, Published{});
+    std::vector<detail::SplatChunk<V, F>> chunk(1);
     Picture<F> picture{std::vector<F>(vertices.size(), flux_traits<F>::zero()), {}};
     const HaltonSequence sequence(1);
     for (std::uint64_t i = 0; i < pass.count; ++i) {
         Sampler<HaltonSequence> sampler(sequence, pass.first + i);
         const auto photon = light.emit(sampler, Spread<T>{T(pass.count), T(smoothing)});
         if (const auto deposit = walk(scene, photon, sampler, pass.limits, picture.account))
-            chunk[0].add(splatter, *deposit, picture.account);
+            splatter.prepare(*deposit, chunk[0], picture.account);
     }
     SerialExecutor executor;
-    splatter.add(std::span<const typename Splatter::Chunk>(chunk), executor);
-    splatter.for_each([&](std::size_t i, const F& e) { picture.irradiance[i] = e; });
+    splatter.add(std::span<const detail::SplatChunk<V, F>>(chunk), executor);
+    sums.for_each([&](std::size_t i, const F& e) { picture.irradiance[i] = e; });
     return picture;
 }
 
@@ -156,7 +154,7 @@ TEST_CASE_TEMPLATE("first order: gives the bits that photons splatted one by one
     for (const std::optional<double> smoothing : {std::optional<double>(), std::optional<double>(3.7)}) {
         const PhotonPass pass{.first = 5, .count = 3000, .smoothing = smoothing};
         const auto check = [&](const auto& light) {
-            const auto picture = render<FirstOrderPolicies>(ball<V>(), light, pass);
+            const auto picture = render<Published>(ball<V>(), light, pass);
             const auto by_hand = render_by_hand(ball<V>(), light, pass, smoothing.value_or(8));
             CHECK(picture.irradiance == by_hand.irradiance);
             check_same(picture.account, by_hand.account);
@@ -172,7 +170,7 @@ TEST_CASE_TEMPLATE("second order: no flux is lost and shifted photons end as the
     using V = Vec<T>;
     const auto check = [&](const auto& light, const auto& sequence) {
         const auto second = render(ball<V>(), light, {.count = 5000}, sequence),
-                   first = render<FirstOrderPolicies>(ball<V>(), light, {.count = 5000}, sequence);
+                   first = render<Published>(ball<V>(), light, {.count = 5000}, sequence);
         check_balance(second.account);
         CHECK(second.account.emitted.photons == 5000);
         CHECK(second.account.rays == first.account.rays);
@@ -199,7 +197,7 @@ TEST_CASE_TEMPLATE("second order: a straight map's picture is that of plain spla
     const SheetScene<T> water{
         {{{0, 0, 1}, {0, 0, 1}, Event::refract, T(1), 1, T(1.33)}, {{0, 0, 0}, {0, 0, 1}, Event::deposit}}};
     const PhotonPass pass{.count = 3000, .smoothing = 6};
-    const auto second = render(water, sun<V>(), pass), first = render<FirstOrderPolicies>(water, sun<V>(), pass);
+    const auto second = render(water, sun<V>(), pass), first = render<Published>(water, sun<V>(), pass);
     CHECK(second.account.bounded_shifts == 0);
     double furthest = 0;
     for (std::size_t i = 0; i < first.irradiance.size(); ++i)
@@ -212,7 +210,7 @@ TEST_CASE("second order: any number of threads renders the same picture bit for 
     using V = Vec<float>;
     const StandardLights<V, float> lights({bulb<V>(), disk<V>(), sun<V>()});
     // Some of them beyond the pilot.
-    const SplatPolicies<> policies{.order = {.pilot = 2000}};
+    const Default policies{.order = {.pilot = 2000}};
     const PhotonPass pass{.count = 6000};
     const auto serial = render(ball<V>(), lights, pass, HaltonSequence(1), SerialExecutor{}, policies);
     for (const unsigned threads : {1u, 2u, 7u}) {
@@ -226,7 +224,7 @@ TEST_CASE("second order: any number of threads renders the same picture bit for 
 TEST_CASE("second order: photons beyond the pilot are placed by it") {
     using V = Vec<double>;
     const auto whole = render(ball<V>(), sun<V>(), {.count = 8000});
-    const SplatPolicies<> policies{.order = {.pilot = 4000}};
+    const Default policies{.order = {.pilot = 4000}};
     const auto by_half = render(ball<V>(), sun<V>(), {.count = 8000}, HaltonSequence(1), SerialExecutor{}, policies);
     check_balance(by_half.account);
     CHECK(by_half.account[Fate::splatted].photons > 3000);
@@ -254,7 +252,7 @@ TEST_CASE("second order: a pass that is stopped within its pilot counts what was
     CHECK(stopped.account.emitted.flux == doctest::Approx(sun<V>().power() * double(reached) / 20000).epsilon(1e-4));
     check_balance(stopped.account);
     // Rays and fates are those of these photons, as to first order.
-    const auto first = render<FirstOrderPolicies>(ball<V>(), sun<V>(), {.count = reached, .total = 20000});
+    const auto first = render<Published>(ball<V>(), sun<V>(), {.count = reached, .total = 20000});
     CHECK(stopped.account.rays == first.account.rays);
     CHECK(stopped.account.specular_events == first.account.specular_events);
     CHECK(stopped.account.caustic_photons() == first.account.caustic_photons());

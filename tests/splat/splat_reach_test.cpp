@@ -60,7 +60,7 @@ TEST_CASE_TEMPLATE("splat reach: no leaf is left out that has a vertex in the sp
                          v = cross(n, u);
             const T major = T(draw.in(0.02, 1)), minor = T(draw.in(0.01, 1)) * major;
             const Deposit<Vec<T>, T> deposit{at.position, n, -n, 1, {T(2) * major * u, T(2) * minor * (v + u)}};
-            const auto splat = make_splat(deposit, map, SplatPolicies<>{}).splat;
+            const auto splat = make_splat(deposit, map, Published{}).splat;
             REQUIRE(splat);
             const detail::SplatReach<Vec<T>, T> reach(*splat);
             const PointTree<Vec<T>>& tree = map.tree();
@@ -215,7 +215,7 @@ TEST_CASE("splat reach: a flat leaf that lies along the photon's normal is not m
         wall.push_back({{0, float(i % 16) / 16, float(i / 16) / 16}, {1, 0, 0}});
     const EyePathMap<V> map(wall, &Vertex<float>::position, &Vertex<float>::normal);
     const Deposit<V, float> on_floor{{0.1f, 0.5f, 0}, {0, 0, 1}, {0, 0, -1}, 1, {V(1, 0, 0), V(0, 1, 0)}};
-    const auto splat = make_splat(on_floor, map, SplatPolicies<>{}).splat;
+    const auto splat = make_splat(on_floor, map, Published{}).splat;
     REQUIRE(splat);
     const detail::SplatReach<V, float> reach(*splat);
     for (std::uint32_t leaf = 0; leaf < map.tree().leaves().size(); ++leaf)

@@ -2,6 +2,7 @@
 #include "nephroid/splat/splat.hpp"
 
 #include "support/brute_force.hpp"
+#include "support/discard_excess.hpp"
 #include "support/foreign_vectors.hpp"
 #include "support/space.hpp"
 
@@ -103,7 +104,7 @@ TEST_CASE_TEMPLATE("splat: over a fine lattice a photon's flux is kept", T, floa
         for (int shift = 0; shift < 16; ++shift) {
             auto deposit = base;
             deposit.position = {T(x + shift % 4 * spacing / 4), T(y + shift / 4 * spacing / 4), 0};
-            const auto outcome = make_splat(deposit, map, SplatPolicies<>{});
+            const auto outcome = make_splat(deposit, map, Published{});
             REQUIRE(outcome.fate == Fate::splatted);
             const Splat<Vec<T>, T> splat = *outcome.splat;
             double energy = 0;
@@ -134,10 +135,9 @@ TEST_CASE_TEMPLATE("splat: whatever a policy does to the footprint the flux stay
             REQUIRE(outcome.fate == Fate::splatted);
             CHECK(flux_of(*outcome.splat) == doctest::Approx(3).epsilon(1e-3)); // float needles of up to 1 : 4000
         };
-        check(SplatPolicies<>{});
-        check(SplatPolicies<ConeKernel, PixelFilter, WidenCollapsed, BoundMajorRadius>{.excess = {0.1}});
-        check(SplatPolicies<BiweightKernel, NoPixelFilter, WidenCollapsed, FallBackToDisk>{
-            .excess = {.radius = 0.2, .diagonals = 0.3}});
+        check(Published{});
+        check(Published{.excess = {0.1}}.with_kernel(ConeKernel{}).with_collapse(tests::WidenCollapsed{}));
+        check(Published{.excess = {0.3}}.with_filter(NoPixelFilter{}).with_collapse(tests::WidenCollapsed{}));
     }
 }
 
@@ -157,10 +157,10 @@ TEST_CASE_TEMPLATE("splat: the pixel filter adds its disk in quadrature and can 
         CHECK(std::abs(a - std::sqrt(0.01 + disk * disk)) <= 16 * epsilon<T>);
         CHECK(std::abs(b - std::sqrt(0.000625 + disk * disk)) <= 16 * epsilon<T>);
     };
-    check(SplatPolicies<>{}, std::sqrt(2.0 / 3) * spacing);
-    check(SplatPolicies<BiweightKernel, PixelFilter>{.filter = {3}}, 3 * std::sqrt(2.0 / 3) * spacing);
-    check(SplatPolicies<UniformKernel>{}, std::sqrt(1.0 / 3) * spacing);
-    check(SplatPolicies<BiweightKernel, NoPixelFilter>{}, 0);
+    check(Published{}, std::sqrt(2.0 / 3) * spacing);
+    check(Published{.filter = {3}}, 3 * std::sqrt(2.0 / 3) * spacing);
+    check(Published{}.with_kernel(UniformKernel{}), std::sqrt(1.0 / 3) * spacing);
+    check(Published{}.with_filter(NoPixelFilter{}), 0);
 }
 
 // The outline of the ellipse moved by the thickness to both sides touches all faces of the box.
@@ -173,7 +173,7 @@ TEST_CASE_TEMPLATE("splat: the box is tight about all that may receive", T, floa
         const auto frame = frame_about(n);
         const auto in_plane = [&] { return Vec<T>(T(draw.in(-0.3, 0.3)) * frame.u + T(draw.in(-0.3, 0.3)) * frame.v); };
         const Deposit<Vec<T>, T> deposit{{T(0.3), T(0.4), T(0.1)}, n, -n, T(1), {in_plane(), in_plane()}};
-        const auto outcome = make_splat(deposit, map, SplatPolicies<>{.normal_distance = 0.75});
+        const auto outcome = make_splat(deposit, map, Published{.normal_distance = 0.75});
         REQUIRE(outcome.splat);
         const auto& splat = *outcome.splat;
         {
@@ -208,13 +208,13 @@ TEST_CASE_TEMPLATE("splat: a footprint that is no number is invalid", T, float, 
     for (const T bad : {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()}) {
         auto deposit = deposit_at<T>(0.5, 0.5, 0.1, 0, 0.1, 1);
         deposit.d_position[1].x = bad;
-        CHECK(make_splat(deposit, map, SplatPolicies<>{}).fate == Fate::invalid);
+        CHECK(make_splat(deposit, map, Published{}).fate == Fate::invalid);
         deposit = deposit_at<T>(0.5, 0.5, 0.1, 0, 0.1, 1);
         deposit.position.y = bad;
-        CHECK(make_splat(deposit, map, SplatPolicies<>{}).fate == Fate::invalid);
+        CHECK(make_splat(deposit, map, Published{}).fate == Fate::invalid);
         Deposit<Vec<T>, T, 3> three{
             {T(0.5), T(0.5), 0}, {0, 0, 1}, {0, 0, -1}, 1, {Vec<T>{1, 0, 0}, {0, 1, 0}, {0, bad, 0}}};
-        CHECK(make_splat(three, map, SplatPolicies<>{}).fate == Fate::invalid);
+        CHECK(make_splat(three, map, Published{}).fate == Fate::invalid);
     }
 }
 
@@ -222,20 +222,20 @@ TEST_CASE_TEMPLATE("splat: what the policies discard says so", T, float, double)
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     const auto needle = deposit_at<T>(0.5, 0.5, 0.1, 0, 0, 0), point = deposit_at<T>(0.5, 0.5, 0, 0, 0, 0);
-    const SplatPolicies<BiweightKernel, NoPixelFilter> bare{};
+    const auto bare = Published{}.with_filter(NoPixelFilter{});
     CHECK(make_splat(needle, map, bare).fate == Fate::collapsed);
     CHECK(make_splat(point, map, bare).fate == Fate::collapsed);
     CHECK(!make_splat(point, map, bare).splat);
-    CHECK(make_splat(needle, map, SplatPolicies<>{}).fate == Fate::splatted);
-    CHECK(make_splat(point, map, SplatPolicies<>{}).fate == Fate::splatted);
-    CHECK(!make_splat(point, map, SplatPolicies<>{}).bounded);
-    const SplatPolicies<BiweightKernel, NoPixelFilter, WidenCollapsed> widen{};
+    CHECK(make_splat(needle, map, Published{}).fate == Fate::splatted);
+    CHECK(make_splat(point, map, Published{}).fate == Fate::splatted);
+    CHECK(!make_splat(point, map, Published{}).bounded);
+    const auto widen = bare.with_collapse(tests::WidenCollapsed{});
     CHECK(make_splat(point, map, widen).fate == Fate::splatted);
     CHECK(make_splat(point, map, widen).bounded);
 
     const auto endless = deposit_at<T>(0.5, 0.5, 100, 0, 0.1, 1);
-    CHECK(make_splat(endless, map, SplatPolicies<>{}).bounded);
-    const SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, DiscardExcess> discard{};
+    CHECK(make_splat(endless, map, Published{}).bounded);
+    const auto discard = Published{}.with_excess(tests::DiscardExcess{});
     CHECK(make_splat(endless, map, discard).fate == Fate::excessive);
     CHECK(make_splat(needle, map, discard).fate == Fate::splatted);
 }
@@ -248,7 +248,7 @@ TEST_CASE_TEMPLATE("splat: a footprint too small for its flux has collapsed", T,
     const T least = std::sqrt((std::numeric_limits<T>::min)());
     auto deposit = deposit_at<T>(0.5, 0.5, double(least) * 2, 0, double(least) * 2, std::numbers::pi / 2);
     deposit.flux = T(1000);
-    const auto outcome = make_splat(deposit, map, SplatPolicies<BiweightKernel, NoPixelFilter>{});
+    const auto outcome = make_splat(deposit, map, Published{}.with_filter(NoPixelFilter{}));
     CHECK(outcome.fate == Fate::collapsed);
 }
 
@@ -264,7 +264,7 @@ TEST_CASE_TEMPLATE("splat: of the longest footprints there are is finite", T, fl
                                    {Vec<T>{std::ldexp(T(0.6), power), std::ldexp(T(0.8), power), 0}, {0, T(0.1), 0}}};
         CAPTURE(power);
         for (int both = 0; both < 2; ++both) {
-            const auto outcome = make_splat(deposit, map, SplatPolicies<>{});
+            const auto outcome = make_splat(deposit, map, Published{});
             if (outcome.fate == Fate::splatted) {
                 CHECK(all_finite(outcome.splat->row_a));
                 CHECK(all_finite(outcome.splat->row_b));
@@ -284,8 +284,8 @@ TEST_CASE_TEMPLATE("splat: onto an empty map or a single vertex is no crash", T,
     const auto nothing = map_of(std::vector<Vertex<V>>{});
     const auto single = map_of(std::vector<Vertex<V>>{{{T(0.5), T(0.5), 0}, {0, 0, 1}}});
     for (const auto* map : {&nothing, &single}) {
-        CHECK(make_splat(deposit, *map, SplatPolicies<>{}).fate == Fate::splatted);
-        CHECK(make_splat(point, *map, SplatPolicies<>{}).fate == Fate::collapsed); // no spacing to widen it by
+        CHECK(make_splat(deposit, *map, Published{}).fate == Fate::splatted);
+        CHECK(make_splat(point, *map, Published{}).fate == Fate::collapsed); // no spacing to widen it by
     }
 }
 
@@ -298,7 +298,7 @@ TEST_CASE_TEMPLATE("splat: is made of any vector", T, float, double) {
         const V n = make_vector<V>(0, 0, 1);
         const Deposit<V, T> deposit{
             make_vector<V>(5, 5, 0), n, -n, T(2), {make_vector<V>(2, 0, 0), make_vector<V>(0, 4, 0)}};
-        const auto outcome = make_splat(deposit, map, SplatPolicies<BiweightKernel, NoPixelFilter>{});
+        const auto outcome = make_splat(deposit, map, Published{}.with_filter(NoPixelFilter{}));
         REQUIRE(outcome.splat.has_value());
         CHECK(std::abs(double(outcome.splat->peak) - 1) <= 4 * epsilon<T>);
         CHECK(flux_of(*outcome.splat) == doctest::Approx(2));
@@ -307,10 +307,12 @@ TEST_CASE_TEMPLATE("splat: is made of any vector", T, float, double) {
 
 TEST_CASE_TEMPLATE("splat: a fixed footprint is a disk whatever the differential says or if there is none", T, float,
                    double) {
-    using Policies = SplatPolicies<UniformKernel, NoPixelFilter, DiscardCollapsed, BoundMajorRadius, FixedFootprint>;
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
-    const Policies policies{.shape = {0.25}};
+    const auto bare_disk = [](double radius) {
+        return Published{}.with_kernel(UniformKernel{}).with_filter(NoPixelFilter{}).with_shape(FixedFootprint{radius});
+    };
+    const auto policies = bare_disk(0.25);
     const auto whole = deposit_at<T>(0.5, 0.5, 0.1, 0, 0.3, 1);
     const Deposit<Vec<T>, T, 0> bare{whole.position, whole.normal, whole.direction, whole.flux, {}};
     const auto one = make_splat(whole, map, policies), other = make_splat(bare, map, policies);
@@ -328,8 +330,7 @@ TEST_CASE_TEMPLATE("splat: a fixed footprint is a disk whatever the differential
     CHECK(one.splat->row_a == other.splat->row_a);
     CHECK(one.splat->peak == other.splat->peak);
     // The pixel filter widens it as any other.
-    const SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, FixedFootprint> filtered{
-        .shape = {0.25}};
+    const auto filtered = Published{}.with_shape(FixedFootprint{0.25});
     const double p = double(map.spacing_at(whole.position)), wide = 0.0625 + 2.0 / 3 * p * p;
     CHECK(double(make_splat(bare, map, filtered).splat->peak) == doctest::Approx(double(whole.flux) / wide));
     // A differential that is no number does not matter; a position does.
@@ -340,5 +341,5 @@ TEST_CASE_TEMPLATE("splat: a fixed footprint is a disk whatever the differential
     CHECK(make_splat(odd, map, policies).fate == Fate::invalid);
     // A radius that is none makes no splat.
     for (const double radius : {0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
-        CHECK(!make_splat(bare, map, Policies{.shape = {radius}}).splat);
+        CHECK(!make_splat(bare, map, bare_disk(radius)).splat);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// How much work a splat is: kernel evaluations against the number of vertices in footprints.
-#include "nephroid/splat/photon_splatter.hpp"
+#include "nephroid/splat/splat_photons.hpp"
 
 #include "support/space.hpp"
 
@@ -34,10 +34,6 @@ struct CountingKernel {
     }
 };
 
-using Splatter = PhotonSplatter<Vec, float,
-                                SplatPolicies<CountingKernel, NoPixelFilter, DiscardCollapsed, BoundMajorRadius,
-                                              DifferentialFootprint, FirstOrder>>;
-
 constexpr std::size_t side = 200;
 constexpr float spacing = 1.0f / side;
 
@@ -59,14 +55,7 @@ std::vector<Deposit<Vec, float>> disks(float radius, int count) {
     return deposits;
 }
 
-void splat(Splatter& splatter, const std::vector<Deposit<Vec, float>>& deposits) {
-    std::vector<Splatter::Chunk> chunks(1);
-    Statistics account;
-    for (const auto& deposit : deposits)
-        chunks[0].add(splatter, deposit, account);
-    SerialExecutor executor;
-    splatter.add(std::span<const Splatter::Chunk>(chunks), executor);
-}
+const auto policies = Published{}.with_kernel(CountingKernel{}).with_filter(NoPixelFilter{});
 
 /// The vertices in all leaves whose boxes a disk's box meets, slots that repeat one counted.
 std::size_t slots_met(const PointTree<Vec>& tree, const Deposit<Vec, float>& deposit, float radius) {
@@ -86,11 +75,11 @@ TEST_CASE("splatting work: no vertex receives a photon twice") {
     const auto vertices = lattice();
     const EyePathMap map(vertices, &Vertex::position, &Vertex::normal);
     for (const float radius : {2.3f * spacing, 9.1f * spacing, 33.7f * spacing}) {
-        Splatter splatter(map);
-        splat(splatter, disks(radius, 1));
+        auto sums = nephroid::sums<float>(map);
+        splat(disks(radius, 1), sums, {}, policies);
         const float once = pi<float> * radius * radius;
         std::size_t lit = 0;
-        splatter.for_each([&](std::size_t, float sum) {
+        sums.for_each([&](std::size_t, float sum) {
             if (sum == 0)
                 return;
             ++lit;
@@ -114,9 +103,9 @@ TEST_CASE("splatting work: the kernel is evaluated area times density and a leaf
         std::size_t most = 0;
         for (const auto& deposit : deposits)
             most += slots_met(map.tree(), deposit, radius);
-        Splatter splatter(map);
+        auto sums = nephroid::sums<float>(map);
         CountingKernel::evaluations = 0;
-        splat(splatter, deposits);
+        splat(deposits, sums, {}, policies);
         const double count = double(deposits.size()), evaluations = double(CountingKernel::evaluations) / count;
         const double r = double(radius) / spacing, inside = std::numbers::pi * r * r;
         CAPTURE(r);

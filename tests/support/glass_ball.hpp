@@ -77,7 +77,7 @@ template <class V>
 }
 
 /// The irradiance at side × side vertices on the floor around the caustic, in slanting light of irradiance `sun`.
-template <class Policies = SplatPolicies<>, Vector3 V, Flux F>
+template <class Policies = Default, Vector3 V, Flux F>
 [[nodiscard]] std::vector<F> caustic_of(const GlassBall<V, F>& scene, const F& sun, int side = 16,
                                         std::uint64_t photons = 600) {
     using T = scalar_t<V>;
@@ -88,13 +88,13 @@ template <class Policies = SplatPolicies<>, Vector3 V, Flux F>
             vertices.push_back({t::make(T(1.6 * (x + 0.5) / side - 0.6), T(1.6 * (y + 0.5) / side - 0.8), T(0)),
                                 t::make(T(0), T(0), T(1))});
     const EyePathMap<V> map(vertices, &FloorVertex<V>::position, &FloorVertex<V>::normal);
-    PhotonSplatter<V, F, Policies> splatter(map);
+    auto sums = nephroid::sums<F>(map);
     const DirectionalLight<V, F> light({.direction = t::make(T(0.25), T(0), T(-1)),
                                         .irradiance = sun,
                                         .patch = BoundingSphere<V>{t::make(T(0), T(0), T(1.5)), T(1.25)}});
-    (void)splat_caustics(scene, light, splatter, {.count = photons, .smoothing = 6});
+    (void)caustics(scene, light, sums, {.count = photons, .smoothing = 6}, Policies{});
     std::vector<F> irradiance(vertices.size(), flux_traits<F>::zero());
-    splatter.for_each([&](std::size_t i, const F& e) { irradiance[i] = e; });
+    sums.for_each([&](std::size_t i, const F& e) { irradiance[i] = e; });
     return irradiance;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The library differentiated: a scalar that is a dual number goes through the lamp, the walk, the map and the splats,
 // and comes out as the irradiance's derivative by a parameter of the scene.
-#include "support/first_order.hpp"
 #include "support/foreign_vectors.hpp"
 #include "support/glass_ball.hpp"
 
@@ -26,7 +25,7 @@ using Ball = tests::GlassBall<foreign::Plain<T>, T>;
 /// (second_order_test.cpp), and differences would see them change.
 template <class T>
 [[nodiscard]] std::vector<T> caustic_of(const Ball<T>& scene, const T& sun) {
-    return tests::caustic_of<tests::FirstOrderPolicies>(scene, sun);
+    return tests::caustic_of<Published>(scene, sun);
 }
 
 /// Checks the derivative by a parameter that is `at` in the scene, which a function makes from it.

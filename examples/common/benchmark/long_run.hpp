@@ -40,15 +40,15 @@ inline void benchmark_long_run(const Effort& effort) {
     cells.width = cells.height = side * fine;
     const std::vector<double> exact = exact_picture(cells, 2).value();
 
-    PublishedSplatter splatter(map);
+    auto sums = nephroid::sums<float>(map);
     const MemoryPeak memory;
     Stopwatch stopwatch;
-    const Statistics account = splat_caustics(builtin.scene, builtin.light, splatter,
+    const Statistics account = splat_caustics(builtin.scene, builtin.light, sums,
                                               {.count = effort.photons, .smoothing = 1, .limits = walk_limits(film)},
                                               RandomSequence(5), threads);
     const double seconds = stopwatch.lap(), photons = double(effort.photons);
     std::vector<double> picture(side * side);
-    splatter.for_each([&](std::size_t vertex, float e) { picture[vertices[vertex].pixel] += double(e); });
+    sums.for_each([&](std::size_t vertex, float e) { picture[vertices[vertex].pixel] += double(e); });
     double error2 = 0, variance = 0;
     for (std::size_t pixel = 0; pixel < picture.size(); ++pixel) {
         const auto centre = [](std::size_t i) { return (double(i) + 0.5) * double(fine); };

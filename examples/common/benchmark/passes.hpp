@@ -22,10 +22,6 @@
 
 namespace nephroid::examples::benchmarks {
 
-using PublishedPolicies =
-    SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, FirstOrder>;
-using PublishedSplatter = PhotonSplatter<Vec, float, PublishedPolicies>;
-
 inline constexpr double no_ratio = std::numeric_limits<double>::quiet_NaN();
 
 /// Walks photons 0 to count − 1, and keeps none.
@@ -112,11 +108,11 @@ inline void benchmark_pass(const Effort& effort) {
     const auto water = water_scene(wavy_sheet(100));
     const auto vertices = film_vertices(512);
     const EyePathMap map(vertices, &Vertex::position, &Vertex::normal);
-    PublishedSplatter splatter(map);
+    auto sums = nephroid::sums<float>(map);
     const PhotonPass pass{.count = 1 << 16, .total = 1'000'000, .smoothing = 5};
     std::uint64_t caustic = 0;
     const auto over = [&](const auto& scene) {
-        return [&] { caustic = splat_caustics(scene, sun(), splatter, pass).caustic_photons(); };
+        return [&] { caustic = splat_caustics(scene, sun(), sums, pass).caustic_photons(); };
     };
     const double items = double(pass.count);
     std::vector<Task> tasks{{items, over(water)}, {items, walks(water, sun(), pass.count, {})}};
@@ -153,15 +149,15 @@ inline void benchmark_frame(const Effort& effort) {
         now.eye_paths = stopwatch.lap();
         const EyePathMap map(vertices, &FloorVertex::position, upwards);
         now.map = stopwatch.lap();
-        PublishedSplatter splatter(map);
+        auto sums = nephroid::sums<float>(map);
         TimingExecutor timing(one);
-        splat_caustics(builtin.scene, builtin.light, splatter,
+        splat_caustics(builtin.scene, builtin.light, sums,
                        {.count = 20'000, .smoothing = 5, .limits = walk_limits(film)}, HaltonSequence(), timing);
         now.trace = timing.trace_seconds();
         now.splat = timing.splat_seconds();
         (void)stopwatch.lap();
         std::vector<float> picture(film.pixels());
-        splatter.for_each([&](std::size_t vertex, float e) { picture[vertices[vertex].pixel] += e; });
+        sums.for_each([&](std::size_t vertex, float e) { picture[vertices[vertex].pixel] += e; });
         benchmark::DoNotOptimize(picture.data());
         now.film = stopwatch.lap();
         now.total = total.lap();
@@ -187,14 +183,13 @@ inline void benchmark_threads(const Effort& effort) {
     const auto water = water_scene(wavy_sheet(100));
     const auto vertices = film_vertices(512);
     const EyePathMap map(vertices, &Vertex::position, &Vertex::normal);
-    PublishedSplatter splatter(map);
+    auto sums = nephroid::sums<float>(map);
     const auto trace = [&](ThreadExecutor& threads) {
         return [&] { (void)trace_photons(water, sun(), {.count = 1 << 16}, HaltonSequence(), threads); };
     };
     const auto splat = [&](ThreadExecutor& threads) {
-        return [&] {
-            splat_caustics(water, sun(), splatter, {.count = 1 << 16, .smoothing = 12}, HaltonSequence(), threads);
-        };
+        return
+            [&] { splat_caustics(water, sun(), sums, {.count = 1 << 16, .smoothing = 12}, HaltonSequence(), threads); };
     };
     using Photon = Deposit<Vec, float>;
     const auto traced = trace_photons(water, sun(), {.count = 50'000});
@@ -229,10 +224,10 @@ inline void benchmark_growth(const Effort& effort) {
     const auto run = [&](std::size_t side, double photons) {
         const auto vertices = film_vertices(side);
         const EyePathMap map(vertices, &Vertex::position, &Vertex::normal);
-        PublishedSplatter splatter(map);
+        auto sums = nephroid::sums<float>(map);
         const MemoryPeak memory;
         Stopwatch stopwatch;
-        splat_caustics(water, sun(), splatter, {.count = std::uint64_t(photons), .smoothing = 8});
+        splat_caustics(water, sun(), sums, {.count = std::uint64_t(photons), .smoothing = 8});
         const double seconds = stopwatch.lap();
         // A footprint of smoothing s is a disk of diameter s/√N on the sheet, and as large on the floor on the
         // average; the pixel filter adds √(2/3) of a pixel to its radius, in quadrature.

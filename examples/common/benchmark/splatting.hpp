@@ -7,15 +7,15 @@
 #include "common/benchmark/table.hpp"
 
 #include "nephroid/caustics.hpp"
+#include "nephroid/splat/splat_photons.hpp"
 
 #include <cmath>
 
 namespace nephroid::examples::benchmarks {
 
 /// Every footprint is a disk with so many vertices in it.
-using DiskPolicies =
-    SplatPolicies<BiweightKernel, NoPixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, FirstOrder>;
-using DiskSplatter = PhotonSplatter<Vec, float, DiskPolicies>;
+using DiskPolicies = decltype(Published{}.with_filter(NoPixelFilter{}));
+using DiskSplatter = nephroid::detail::Splatter<Vec, float, Irradiance, DiskPolicies>;
 
 /// nanoflann's radius search, which calls this for every point within reach.
 class SplatCallback {
@@ -65,9 +65,8 @@ public:
         const std::size_t photons = (std::min)(std::size_t(1) << 14, (std::size_t(1) << 22) / vertices);
         for (const Vec& at : places(photons, HaltonSequence()))
             deposits_.push_back({at, {0, 0, 1}, {0, 0, -1}, 1, {Vec(2 * radius_, 0, 0), Vec(0, 2 * radius_, 0)}});
-        DiskSplatter splatter(map_);
         for (const auto& deposit : deposits_)
-            splats_.push_back(make_splat(deposit, map_, splatter.policies()).splat.value());
+            splats_.push_back(make_splat(deposit, map_, DiskPolicies{}).splat.value());
     }
 
     void run(const Effort& effort) {
@@ -98,22 +97,16 @@ public:
             benchmark::DoNotOptimize(row.data());
         };
 
-        DiskSplatter splatter(map_);
-        const auto from_deposits = [&] {
-            nephroid::detail::splat_in_batches(
-                splatter, PhotonPass{.count = deposits_.size()},
-                [&](std::uint64_t i, DiskSplatter::Chunk& chunk, Statistics& account) {
-                    chunk.add(splatter, deposits_[i], account);
-                },
-                serial_);
-        };
+        auto sums_of_splats = nephroid::sums<float>(map_);
+        DiskSplatter splatter(sums_of_splats, DiskPolicies{});
+        const auto from_deposits = [&] { nephroid::splat(deposits_, sums_of_splats, {}, DiskPolicies{}, serial_); };
         std::vector<DiskSplatter::Chunk> chunks(1);
         const auto ready = [&] {
             for (std::size_t i = 0; i < splats_.size();) {
                 chunks[0].clear();
-                const std::size_t end = (std::min)(splats_.size(), i + nephroid::detail::most_photons);
-                while (i < end && chunks[0].visits() < nephroid::detail::visits_per_batch)
-                    chunks[0].add(splatter, splats_[i++]);
+                const std::size_t end = (std::min)(splats_.size(), i + nephroid::detail::BatchSizes::most);
+                while (i < end && chunks[0].visits().size() < nephroid::detail::BatchSizes::visits)
+                    chunks[0].add(map_, splats_[i++]);
                 splatter.add(std::span<const DiskSplatter::Chunk>(chunks), serial_);
             }
         };

@@ -2,13 +2,13 @@
 /// @file  From a scene, a light and an eye path map to sums at the vertices: the pilot pass and the real one, timed.
 #pragma once
 
-#include "common/caustic_share.hpp"
+#include "common/caustic_photons.hpp"
 #include "common/caustics/progress.hpp"
 #include "common/caustics/report.hpp"
 #include "common/stopwatch.hpp"
 
 #include "nephroid/caustics.hpp"
-#include "nephroid/smoothing/cross_validation.hpp"
+#include "nephroid/smoothing/cross_validated_smoothing.hpp"
 
 #include <stdexcept>
 #include <variant>
@@ -39,15 +39,13 @@ template <class K, class Use>
 void with_policies(const Options& options, const K& kernel, bool repeats, Use&& use) {
     const PixelFilter filter{options.pixel_filter ? 1.0 : 0.0};
     if (options.first_order)
-        use(SplatPolicies<K, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, FirstOrder>{
-            .kernel = kernel, .filter = filter});
+        use(Published{.filter = filter}.with_kernel(kernel));
     else if constexpr (std::same_as<K, BiweightKernel>) { // for the others the options insist on first order
         const SecondOrder order{.domain_repeats = repeats};
         if (options.curved)
-            use(SplatPolicies<K, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint,
-                              CurvedFootprints>{.kernel = kernel, .filter = filter, .order = {order}});
+            use(Default{.filter = filter}.with_order(CurvedFootprints{order}));
         else
-            use(SplatPolicies<K>{.kernel = kernel, .filter = filter, .order = order});
+            use(Default{.filter = filter, .order = order});
     }
 }
 
@@ -63,10 +61,8 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 throw std::runtime_error("the lights emit nothing: their intensity or emission is zero");
             Stopwatch stopwatch;
             std::uint64_t emit = options.emit.value_or(0);
-            if (emit == 0) {
-                const double share = caustic_share(scene, light, limits, sequence, threads);
-                emit = photons_to_emit(options.photons, share);
-            }
+            if (emit == 0)
+                emit = emit_for(scene, light, options.photons, limits, sequence, threads);
             report.seconds.pilot += stopwatch.lap();
 
             Progress progress(emit);
@@ -77,15 +73,15 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 }};
             with_policies(options, kernel, repeats, [&](const auto& policies) {
                 TimingExecutor timing(threads);
-                PhotonSplatter<V, F, std::remove_cvref_t<decltype(policies)>> splatter(map, policies);
+                auto sums = nephroid::sums<F>(map);
                 if (options.cross_validated)
-                    pass.smoothing = cross_validated_smoothing(scene, light, splatter, pass, sequence, timing);
+                    pass.smoothing = cross_validated_smoothing(scene, light, sums, pass, policies, sequence, timing);
                 report.smoothing = options.first_order ? pass.smoothing.value_or(default_smoothing) : pass.smoothing;
-                report.statistics = splat_caustics(scene, light, splatter, pass, sequence, timing);
+                report.statistics = nephroid::caustics(scene, light, sums, pass, policies, sequence, timing);
                 report.seconds.trace += timing.trace_seconds();
                 report.seconds.fit += timing.fit_seconds();
                 report.seconds.splat += timing.splat_seconds();
-                splatter.for_each(sink);
+                sums.for_each(sink);
             });
         },
         make_kernel(options), make_sequence(options.sequence, options.seed));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/compare/bench.hpp"
 
-#include "common/caustic_share.hpp"
+#include "common/caustic_photons.hpp"
 #include "common/image/pfm.hpp"
 #include "common/stopwatch.hpp"
 
@@ -80,8 +80,7 @@ Photons Bench::trace(SequenceKind kind, std::uint64_t wanted) const {
     photons.pass_begin.resize(passes + 1);
     std::visit(
         [&](const auto& sequence) {
-            const double share = caustic_share(case_.scene, case_.light, limits_, sequence, *threads_);
-            photons.emitted = photons_to_emit(wanted, share);
+            photons.emitted = emit_for(case_.scene, case_.light, wanted, limits_, sequence, *threads_);
             Stopwatch stopwatch;
             for (std::size_t pass = 0; pass < passes; ++pass) {
                 const std::uint64_t first = photons.first_of_pass(pass);

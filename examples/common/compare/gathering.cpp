@@ -162,7 +162,7 @@ Estimate gather_differentials(const Bench& bench, const Photons& photons, double
     const double reach = ghost_margin(bench.film(), smoothing, double(photons.emitted));
     deposits = bench.with_ghosts(std::move(deposits), reach);
     stopwatch = {};
-    const DifferentialMap estimate(deposits, floor.map, SplatPolicies<>{}, bench.threads());
+    const DifferentialMap estimate(deposits, floor.map, Published{}, bench.threads());
     deposits = {};
     result.seconds.build = stopwatch.lap();
     add_to_picture(bench, estimate, 1, result.irradiance);

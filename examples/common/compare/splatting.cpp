@@ -5,19 +5,15 @@
 
 #include "nephroid/caustics.hpp"
 #include "nephroid/gather/progressive.hpp"
+#include "nephroid/splat/splat_photons.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace nephroid::examples {
 
 namespace {
-
-/// As in Frisvad et al. 2014.
-using OfFirstOrder =
-    SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, FirstOrder>;
-using OfSecondOrder =
-    SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, SecondOrder>;
 
 /// Photons [first, end) of those emitted, with footprints of this smoothing among all.
 struct PassOfPhotons {
@@ -42,42 +38,11 @@ struct PassOfPhotons {
     return passes;
 }
 
-/// Splats stored photons in batches, smaller ones where footprints are large.
-template <class Splatter>
-void splat_stored(Splatter& splatter, const Photons& photons, const PassOfPhotons& pass, ThreadExecutor& threads) {
-    using Chunk = typename Splatter::Chunk;
-    constexpr std::size_t chunk_count = 64, least = 4 * chunk_count, most = 128 * chunk_count, visits_wanted = 1u << 19;
-    std::vector<Chunk> chunks(chunk_count);
-    std::size_t batch = least;
-    for (std::size_t begin = pass.deposit; begin < pass.deposit_end;) {
-        const std::size_t end = (std::min)(pass.deposit_end, begin + batch);
-        const std::size_t per_chunk = (end - begin + chunk_count - 1) / chunk_count;
-        threads(chunk_count, [&](std::size_t c) {
-            chunks[c].clear();
-            Statistics unused;
-            const std::size_t chunk_end = (std::min)(end, begin + (c + 1) * per_chunk);
-            for (std::size_t i = begin + c * per_chunk; i < chunk_end; ++i) {
-                auto deposit = photons.deposits[i];
-                for (glm::vec3& tangent : deposit.d_position)
-                    tangent *= static_cast<float>(pass.smoothing.value());
-                chunks[c].add(splatter, deposit, unused);
-            }
-        });
-        splatter.add(std::span<const Chunk>(chunks), threads);
-        std::size_t visits = 1;
-        for (const Chunk& chunk : chunks)
-            visits += chunk.visits();
-        batch = std::clamp((end - begin) * visits_wanted / visits, least, most);
-        begin = end;
-    }
-}
-
-template <class Policies>
 [[nodiscard]] std::vector<float> picture(const Bench& bench, const FloorMap& floor,
-                                         const PhotonSplatter<glm::vec3, float, Policies>& splatter) {
+                                         const Sums<glm::vec3, float>& sums) {
     std::vector<float> irradiance(bench.film().pixels());
     const float share = 1 / static_cast<float>(bench.film().samples);
-    splatter.for_each([&](std::size_t vertex, float e) { irradiance[floor.vertices[vertex].pixel] += share * e; });
+    sums.for_each([&](std::size_t vertex, float e) { irradiance[floor.vertices[vertex].pixel] += share * e; });
     return irradiance;
 }
 
@@ -88,10 +53,11 @@ template <class Policies>
                                         double margin) {
     const FloorMap& floor = bench.map(margin);
     Stopwatch stopwatch;
-    PhotonSplatter<glm::vec3, float, Policies> splatter(floor.map, policies);
+    auto sums = nephroid::sums<float>(floor.map);
     for (const PassOfPhotons& pass : passes)
-        splat_stored(splatter, photons, pass, bench.threads());
-    Estimate result{picture(bench, floor, splatter), {}};
+        nephroid::splat(std::span(photons.deposits).subspan(pass.deposit, pass.deposit_end - pass.deposit), sums,
+                        {.smoothing = pass.smoothing.value()}, policies, bench.threads());
+    Estimate result{picture(bench, floor, sums), {}};
     result.seconds = {0, floor.seconds, stopwatch.lap()};
     return result;
 }
@@ -103,21 +69,21 @@ template <class L, class Policies>
                                        double margin) {
     const FloorMap floor(bench.vertices_with_ghosts(margin));
     Stopwatch stopwatch;
-    PhotonSplatter<glm::vec3, float, Policies> splatter(floor.map, policies);
+    auto sums = nephroid::sums<float>(floor.map);
     TimingExecutor timing(bench.threads());
     std::visit(
         [&](const auto& sequence) {
             for (const PassOfPhotons& pass : passes)
-                static_cast<void>(splat_caustics(bench.scene().scene, light, splatter,
-                                                 PhotonPass{.first = pass.first,
-                                                            .count = pass.end - pass.first,
-                                                            .total = photons.emitted,
-                                                            .smoothing = pass.smoothing,
-                                                            .limits = bench.limits()},
-                                                 sequence, timing));
+                static_cast<void>(nephroid::caustics(bench.scene().scene, light, sums,
+                                                     PhotonPass{.first = pass.first,
+                                                                .count = pass.end - pass.first,
+                                                                .total = photons.emitted,
+                                                                .smoothing = pass.smoothing,
+                                                                .limits = bench.limits()},
+                                                     policies, sequence, timing));
         },
         photons.samples);
-    Estimate result{picture(bench, floor, splatter), {}};
+    Estimate result{picture(bench, floor, sums), {}};
     // Making splats and finding their leaves is a part of the tracing here: the library does both for a photon at a
     // time. Fitting footprints to neighbouring photons is a part of the estimate.
     result.seconds = {timing.trace_seconds(), floor.seconds, stopwatch.lap() - timing.trace_seconds()};
@@ -128,8 +94,8 @@ template <class L, class Policies>
                                            const std::vector<PassOfPhotons>& passes, Source source) {
     const double margin = ghost_margin(bench.film(), passes.front().smoothing.value(), double(photons.emitted));
     if (source == Source::lamp)
-        return splat_from_lamp(bench, photons, bench.scene().light, passes, OfFirstOrder{}, margin);
-    Estimate result = splat_from_store(bench, photons, passes, OfFirstOrder{}, margin);
+        return splat_from_lamp(bench, photons, bench.scene().light, passes, Published{}, margin);
+    Estimate result = splat_from_store(bench, photons, passes, Published{}, margin);
     result.seconds.trace = photons.trace_seconds;
     return result;
 }
@@ -137,7 +103,7 @@ template <class L, class Policies>
 /// @param largest  smoothing of a footprint
 [[nodiscard]] Estimate splat_to_second_order(const Bench& bench, const Photons& photons,
                                              std::optional<double> smoothing, double largest) {
-    OfSecondOrder policies;
+    Default policies;
     policies.order.domain_repeats = bench.scene().periodic;
     // Photons are shifted by a part of their footprint. Beyond a whole period there is nothing new.
     const double reach = (1 + policies.order.largest_shift) * largest;
@@ -165,8 +131,7 @@ Estimate splat_progressively(const Bench& bench, const Photons& photons, double 
 }
 
 Estimate splat_disks(const Bench& bench, const Photons& photons, double radius, Source source) {
-    SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, FixedFootprint> disks{};
-    disks.shape = {radius};
+    const auto disks = Published{}.with_shape(FixedFootprint{radius});
     const double margin = radius + 2 * bench.film().pixel();
     if (source == Source::lamp)
         return splat_from_lamp(bench, photons, WithoutTangents(bench.scene().light), {whole(photons, 1)}, disks,

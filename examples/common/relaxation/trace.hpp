@@ -2,7 +2,7 @@
 /// @file  A scene's caustic photons, as many as the options want.
 #pragma once
 
-#include "common/caustic_share.hpp"
+#include "common/caustic_photons.hpp"
 #include "common/relaxation/subject.hpp"
 
 #include "nephroid/gather/trace_photons.hpp"
@@ -21,9 +21,8 @@ template <class S, Light L>
         [&](const auto& sequence) {
             if (!(light.power() > 0))
                 throw std::runtime_error("the lights emit nothing: their intensity or emission is zero");
-            const PhotonPass pass{
-                .count = photons_to_emit(options.photons, caustic_share(scene, light, limits, sequence, threads)),
-                .limits = limits};
+            const PhotonPass pass{.count = emit_for(scene, light, options.photons, limits, sequence, threads),
+                                  .limits = limits};
             const auto trace = trace_photons(scene, WithoutTangents(light), pass, sequence, threads);
             std::vector<StoredPhoton> photons;
             photons.reserve(trace.deposits.size());

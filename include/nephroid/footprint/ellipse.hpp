@@ -104,18 +104,6 @@ template <Vector3 V>
     return sigma.major > scalar_t<V>(0) ? sigma.minor / sigma.major : scalar_t<V>(1);
 }
 
-/// The paper's anisotropy m_a, in [0, 1]: the shorter axis vector without its part along the longer one, over the
-/// longer one's length. Equal to `axis_ratio` where a and b are orthogonal; larger elsewhere.
-/// Source: Frisvad et al. 2014, appendix B.
-template <Vector3 V>
-[[nodiscard]] scalar_t<V> unskewed_ratio(const Ellipse<V>& ellipse) {
-    using T = scalar_t<V>;
-    using W = wider_t<T>;
-    const auto a = detail::widened(ellipse.a), b = detail::widened(ellipse.b);
-    const W longest2 = (std::max)(detail::wide_dot(a, a), detail::wide_dot(b, b));
-    return longest2 > W(0) ? T(abs(detail::wide_area(ellipse.a, ellipse.b, ellipse.normal)) / longest2) : T(1);
-}
-
 namespace detail {
 /// Where an ellipse's covariance is written down: unit vectors along the longest of the vectors that span it, and
 /// across.

@@ -4,7 +4,8 @@
 /// A kernel is a small type with
 ///   - `operator()(r2)` for the squared radius r2 = |x|² >= 0: k >= 0, zero for r2 >= 1, and ∫ k over the disk = 1.
 ///     It should be free of branches (`keep_if`): it is called in a loop that the compiler vectorises;
-///   - `second_moment`: ∫ x² k over the disk, the variance along one axis.
+///   - `second_moment`: ∫ x² k over the disk, the variance along one axis. The pixel filter and second order need
+///     it.
 ///
 /// ```cpp
 /// struct Triweight { // 4/π (1 − r²)³
@@ -15,7 +16,7 @@
 ///         return T(4) / nephroid::pi<T> * rest * rest * rest;
 ///     }
 /// };
-/// PhotonSplatter<V, F, SplatPolicies<Triweight>> splatter(map);
+/// nephroid::caustics(scene, light, sums, pass, nephroid::Default{}.with_kernel(Triweight{}));
 /// ```
 #pragma once
 
@@ -35,7 +36,7 @@ concept HasSecondMoment = requires {
 
 /// The compiler checks the call; `tests/footprint/kernel_laws.hpp` checks the meaning, for every model.
 template <class K, class T = float>
-concept Kernel = std::semiregular<K> && Scalar<T> && MapsRadius2<K, T> && HasSecondMoment<K>;
+concept Kernel = std::semiregular<K> && Scalar<T> && MapsRadius2<K, T>;
 
 /// The radius that a disk of kernel K needs to have a pixel box's variance, in units of the pixel's side:
 /// sqrt((1/12) / second moment). What the pixel filter adds to each footprint.

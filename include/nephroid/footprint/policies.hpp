@@ -38,22 +38,6 @@ struct DiscardCollapsed {
     }
 };
 
-/// Widens a footprint whose minor radius is below `spacings` times the local spacing of the eye path vertices, so
-/// that none falls between them: for use without the pixel filter.
-struct WidenCollapsed {
-    double spacings = 0.5;
-    template <Vector3 V>
-    [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V> spacing) const {
-        using T = scalar_t<V>;
-        const T least = T(spacings) * spacing;
-        const auto sigma = radii(ellipse);
-        if (sigma.minor >= least)
-            return sigma.minor > T(0) ? Verdict::kept : Verdict::discarded;
-        ellipse = add_disk(ellipse, sqrt((least - sigma.minor) * (least + sigma.minor)));
-        return Verdict::bounded;
-    }
-};
-
 namespace detail {
 /// Shortens the ellipse along its major axis to this radius; the minor one stays, unless it is longer as well.
 template <Vector3 V>
@@ -87,33 +71,6 @@ struct BoundMajorRadius {
         if (!isfinite(sigma.major))
             return Verdict::discarded;
         detail::shorten(ellipse, sigma, bound);
-        return Verdict::bounded;
-    }
-};
-
-/// Discards a photon whose major radius exceeds that bound.
-struct DiscardExcess {
-    double diagonals = 1;
-    template <Vector3 V>
-    [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V> diagonal) const {
-        const scalar_t<V> bound = scalar_t<V>(diagonals) * diagonal;
-        return radii(ellipse).major <= bound || !(bound > scalar_t<V>(0)) ? Verdict::kept : Verdict::discarded;
-    }
-};
-
-/// Replaces a footprint whose major radius exceeds that bound by a disk of radius `radius`, world units: the
-/// fallback to a fixed (or progressively shrinking) radius of De Barro et al. 2025.
-struct FallBackToDisk {
-    double radius;
-    double diagonals = 1;
-    template <Vector3 V>
-    [[nodiscard]] Verdict operator()(Ellipse<V>& ellipse, scalar_t<V> diagonal) const {
-        using T = scalar_t<V>;
-        const T bound = T(diagonals) * diagonal;
-        if (radii(ellipse).major <= bound || !(bound > T(0)))
-            return Verdict::kept;
-        const Frame<V> frame = frame_about(ellipse.normal);
-        ellipse = {T(radius) * frame.u, T(radius) * frame.v, ellipse.normal};
         return Verdict::bounded;
     }
 };

@@ -11,12 +11,12 @@
 
 namespace nephroid {
 
-/// Estimates irradiance as the sum of the stored photons' footprints over a point: the same sum as `PhotonSplatter`'s,
+/// Estimates irradiance as the sum of the stored photons' footprints over a point: the same sum as splatting's,
 /// photon by photon for each vertex instead of vertex by vertex for each photon.
 /// Source: Schjøth, Frisvad, Erleben and Sporring 2007, "Photon Differentials".
 ///
 /// ```cpp
-/// const nephroid::DifferentialMap estimate(traced.deposits, eye_path_map, nephroid::SplatPolicies<>{});
+/// const nephroid::DifferentialMap estimate(traced.deposits, eye_path_map, nephroid::Published{});
 /// const float e = estimate(position, normal);
 /// ```
 template <Vector3 V, Flux F, class K = BiweightKernel>
@@ -28,8 +28,8 @@ public:
     /// @param deposits  photons with their tangents, as `trace_photons` returns them
     /// @param eyes      the vertices to be estimated at: bound the footprints and give the pixel filter its width, as
     ///                  in splatting; not needed after the call
-    /// @param policies  `SplatPolicies<…>`: how a photon becomes a footprint. First order: neighbouring photons do
-    ///                  not shape the footprints, as they may in `splat_caustics`
+    /// @param policies  `Published{}` or others: how a photon becomes a footprint. First order: neighbouring photons do
+    ///                  not shape the footprints, as they may in `caustics`
     /// @param executor  who runs the work; the result does not depend on it
     template <std::size_t N, class Policies, class E = SerialExecutor>
     DifferentialMap(const std::vector<Deposit<V, F, N>>& deposits, const EyePathMap<V>& eyes, const Policies& policies,
@@ -39,7 +39,7 @@ public:
     /// With the default policies.
     template <std::size_t N, std::same_as<BiweightKernel> = K>
     DifferentialMap(const std::vector<Deposit<V, F, N>>& deposits, const EyePathMap<V>& eyes)
-        : DifferentialMap(deposits, eyes, SplatPolicies<>{}) {}
+        : DifferentialMap(deposits, eyes, Published{}) {}
 
     /// The irradiance at a point of a surface; a position that is not finite receives nothing.
     /// @param normal  unit; photons on the other side do not count

@@ -34,8 +34,8 @@ struct ShrinkingRadiusOptions {
 /// ```cpp
 /// nephroid::ShrinkingRadius s({.radius = 10});
 /// for (std::uint64_t i = 0; i < passes; ++i, s.advance())
-///     nephroid::splat_caustics(scene, light, splatter, {.first = i * n, .count = n, .smoothing = s.radius()});
-/// // the splatter's sums over `passes` are the picture
+///     nephroid::splat_caustics(scene, light, sums, {.first = i * n, .count = n, .smoothing = s.radius()});
+/// // the sums over `passes` are the picture
 /// ```
 class ShrinkingRadius {
 public:

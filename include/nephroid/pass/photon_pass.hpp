@@ -3,7 +3,6 @@
 #pragma once
 
 #include "nephroid/emission/spread.hpp"
-#include "nephroid/footprint/smoothing.hpp"
 #include "nephroid/transport/walk_limits.hpp"
 #include "nephroid/vector/error.hpp"
 #include "nephroid/vector/text.hpp"
@@ -15,6 +14,10 @@
 #include <string>
 
 namespace nephroid {
+
+/// The smoothing s where none is given: of splatting to first order, and to second order of photons without usable
+/// neighbours.
+inline constexpr double default_smoothing = 8;
 
 /// Which photons a pass traces, and how large their footprints are.
 struct PhotonPass {
@@ -28,26 +31,29 @@ struct PhotonPass {
     /// (smoothing/cross_validation.hpp); `default_smoothing` to first order.
     std::optional<double> smoothing{};
     WalkLimits limits{};
-    /// Called between batches (of up to 8,192 photons in `splat_caustics`, 65,536 in `trace_photons`) with the photons
-    /// done so far in this pass, from the calling thread; false stops the pass. The picture then holds the photons that
+    /// Called between batches (of up to 8,192 photons when splatting, 65,536 in `trace_photons`) with the photons done
+    /// so far in this pass, from the calling thread; false stops the pass. The picture then holds the photons that
     /// `Statistics::emitted` counts, each with its share of `total`.
     std::function<bool(std::uint64_t)> progress{};
+
+    /// N_e: how many photons the whole picture has, of which this pass may trace a part.
+    [[nodiscard]] std::uint64_t emitted_in_all() const { return total == 0 ? count : total; }
 };
 
 namespace detail {
-/// @param who  the caller's name for error messages
-inline void check(const PhotonPass& pass, const char* who) {
+/// @param caller  its name, for error messages
+inline void check(const PhotonPass& pass, const char* caller) {
     if (pass.count == 0)
-        invalid_argument(std::string(who) + ": zero photons; count must be at least 1");
+        invalid_argument(std::string(caller) + ": zero photons; count must be at least 1");
     if (pass.smoothing && (!(*pass.smoothing > 0) || !std::isfinite(*pass.smoothing)))
-        invalid_argument(std::string(who) + ": smoothing is " + text_of(*pass.smoothing) +
+        invalid_argument(std::string(caller) + ": smoothing is " + text_of(*pass.smoothing) +
                          "; it must be positive and finite (5 to 16 suits most scenes)");
 }
 
 /// How the pass's photons spread: what a light is told at emission.
 template <Scalar T>
 [[nodiscard]] Spread<T> spread_of(const PhotonPass& pass) {
-    return {T(pass.total == 0 ? pass.count : pass.total), T(pass.smoothing.value_or(default_smoothing))};
+    return {T(pass.emitted_in_all()), T(pass.smoothing.value_or(default_smoothing))};
 }
 } // namespace detail
 

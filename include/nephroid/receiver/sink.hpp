@@ -13,7 +13,7 @@ namespace nephroid {
 /// array, and adds it to the vertex's pixel. Called from one thread, once for each vertex.
 ///
 /// ```cpp
-/// splatter.for_each([&](std::size_t vertex, const Colour& irradiance) {
+/// sums.for_each([&](std::size_t vertex, const Colour& irradiance) {
 ///     film[vertices[vertex].pixel] += vertices[vertex].throughput * irradiance * (1 / pi);
 /// });
 /// ```

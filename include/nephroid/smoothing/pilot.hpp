@@ -27,7 +27,7 @@ template <class S, class L, class Sequence>
 [[nodiscard]] traced_photon_t<L> trace_photon(const S& scene, const L& light, const PhotonPass& pass,
                                               const Sequence& sequence, std::uint64_t index, Statistics& account) {
     using T = scalar_t<typename L::vector>;
-    const Spread<T> spread{T(pass.total == 0 ? pass.count : pass.total), T(1)};
+    const Spread<T> spread{T(pass.emitted_in_all()), T(1)};
     Sampler<Sequence> sampler(sequence, index);
     RecordingSource<Sampler<Sequence>> recorder(sampler, coordinates_of<L>);
     const auto emitted = light.emit(recorder, spread);
@@ -55,7 +55,7 @@ struct Pilot {
 template <class S, class L, class Sequence, class E>
 [[nodiscard]] Pilot<traced_photon_t<L>> trace_pilot(const S& scene, const L& light, const PhotonPass& pass,
                                                     const SecondOrder& policy, const Sequence& sequence, E& executor) {
-    const auto count = std::size_t((std::min)(pass.total == 0 ? pass.count : pass.total, policy.pilot));
+    const auto count = std::size_t((std::min)(pass.emitted_in_all(), policy.pilot));
     Pilot<traced_photon_t<L>> pilot{pass.total == 0 ? pass.first : 0, std::vector<traced_photon_t<L>>(count),
                                     std::vector<Statistics>(count)};
     announce(executor, Phase::trace);
@@ -82,7 +82,7 @@ template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class Polic
                                                .smoothing = pass.smoothing,
                                                .stratified = stratified,
                                                .second_moment = double(Kernel::second_moment),
-                                               .photons = double(pass.total == 0 ? pass.count : pass.total),
+                                               .photons = double(pass.emitted_in_all()),
                                                .largest_reach = largest_reach};
     announce(executor, Phase::fit);
     return Footprints(std::span<const TracedPhoton<V, F, N>>(pilot.photons), options, executor);

@@ -2,10 +2,8 @@
 /// @file  A photon made ready to be splatted: its footprint, filtered, bounded, and turned into a matrix.
 #pragma once
 
-#include "nephroid/footprint/kernel.hpp"
-#include "nephroid/footprint/policies.hpp"
-#include "nephroid/footprint/smoothing.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
+#include "nephroid/splat/splat_policies.hpp"
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/deposit.hpp"
 #include "nephroid/vector/in_place.hpp"
@@ -15,76 +13,8 @@
 
 namespace nephroid {
 
-/// Adds a pixel's footprint to the photon's, so that no footprint falls between the eye path vertices: the image
-/// keeps its energy and converges even at folds. On by default.
-struct PixelFilter {
-    /// Times the kernel's own constant, `pixel_filter_width`. 1 has a pixel box's variance and keeps folds sharpest; a
-    /// picture's energy then varies by up to 0.7% where most light falls into a few pixels. 1.244 puts the zero of the
-    /// biweight's Fourier transform at the pixels' frequency: energy to 0.2% there, and folds half again as blurred.
-    double width_scale = 1;
-};
-
-/// Splats the footprint as it is.
-struct NoPixelFilter {};
-
-/// One of the two, or a type with a member `width_scale`.
-template <class P>
-concept FiltersPixels = std::same_as<P, NoPixelFilter> || requires(const P filter) {
-    { filter.width_scale } -> std::convertible_to<double>;
-};
-
-/// The footprint is the photon differential's [Frisvad et al. 2014]. The default.
-struct DifferentialFootprint {
-    template <Vector3 V, Flux F, std::size_t N>
-        requires(N >= 2)
-    [[nodiscard]] std::optional<Ellipse<V>> operator()(const Deposit<V, F, N>& deposit) const {
-        if (!std::all_of(deposit.d_position.begin(), deposit.d_position.end(),
-                         [](const V& d) { return all_finite(d); }))
-            return std::nullopt;
-        return footprint(deposit.d_position, deposit.normal);
-    }
-};
-
-/// The footprint is a disk of this radius, the same for every photon: splatting with a fixed bandwidth, which needs no
-/// differentials (`WithoutTangents`).
-/// Source: Lavignotte and Paulin 2003, as Frisvad et al. 2014 compare with it.
-struct FixedFootprint {
-    double radius; ///< world units, > 0
-    template <Vector3 V, Flux F, std::size_t N>
-    [[nodiscard]] std::optional<Ellipse<V>> operator()(const Deposit<V, F, N>& deposit) const {
-        const Frame<V> frame = frame_about(deposit.normal);
-        return Ellipse<V>{scalar_t<V>(radius) * frame.u, scalar_t<V>(radius) * frame.v, deposit.normal};
-    }
-};
-
-/// If this is what the compiler names: the policies shape footprints by photon differentials, and these photons carry
-/// none. Leave `WithoutTangents` out, or choose FixedFootprint.
-template <class P, class D, class V>
-concept ShapesFootprint = requires(const P shape, const D& deposit) {
-    { shape(deposit) } -> std::same_as<std::optional<Ellipse<V>>>;
-};
-
-/// How a photon becomes a splat. Every member is a policy chosen by its type; the defaults suit most scenes.
-template <class K = BiweightKernel, class Filter = PixelFilter, class Collapse = DiscardCollapsed,
-          class Excess = BoundMajorRadius, class Shape = DifferentialFootprint, class Order = SecondOrder>
-struct SplatPolicies {
-    K kernel{};
-    Filter filter{};
-    Collapse collapse{};
-    Excess excess{};
-    Shape shape{};
-    /// How `splat_caustics` places and sizes footprints: SecondOrder, or FirstOrder.
-    Order order{};
-    /// Against topological bias: a vertex further from the photon's tangent plane than this many minor radii of the
-    /// footprint (and than the spacing of the vertices) does not receive. Larger lets long footprints bend further
-    /// around curved surfaces, and leak further through thin ones. [Frisvad et al. 2014, after eq. 12; the minor radius
-    /// is nephroid's, as a long footprint would reach far through a table top by its major one]
-    double normal_distance = 0.25;
-};
-
 /// One photon as the inner loop wants it: x is inside where |row_a · (x − centre)|² + |row_b · (x − centre)|² <
-/// 1 and
-/// |row_n · (x − centre)| < 1.
+/// 1 and |row_n · (x − centre)| < 1.
 template <Vector3 V, Flux F>
 struct Splat {
     V centre;             ///< relative to the map's origin
@@ -104,13 +34,51 @@ struct SplatOutcome {
     bool bounded = false;       ///< a policy changed the footprint
 };
 
+namespace detail {
+template <class K, class T>
+consteval bool explain_kernel_scalar() {
+    static_assert(MapsRadius2<K, T>, "nephroid: the kernel policy cannot be called as kernel(radius2) const with the "
+                                     "vector's scalar (footprint/kernel.hpp)");
+    return false;
+}
+template <class P, class V>
+consteval bool explain_collapse() {
+    static_assert(FootprintPolicy<P, V>, "nephroid: the collapse policy cannot be called as policy(ellipse, spacing) "
+                                         "const -> Verdict (footprint/policies.hpp)");
+    return false;
+}
+template <class P, class V>
+consteval bool explain_excess() {
+    static_assert(FootprintPolicy<P, V>, "nephroid: the excess policy cannot be called as policy(ellipse, diagonal) "
+                                         "const -> Verdict (footprint/policies.hpp)");
+    return false;
+}
+template <class P, class D, class V>
+consteval bool explain_shape() {
+    static_assert(!std::same_as<P, DifferentialFootprint> || ShapesFootprint<P, D, V>,
+                  "nephroid: these photons carry no differentials to shape footprints by: leave WithoutTangents out, "
+                  "or choose FixedFootprint (splat/footprint_shape.hpp)");
+    static_assert(ShapesFootprint<P, D, V>, "nephroid: the shape policy cannot be called as shape(deposit) const -> "
+                                            "std::optional<Ellipse<V>> (splat/footprint_shape.hpp)");
+    return false;
+}
+
+/// Policies that turn such a deposit into a splat, or an error that says which one does not.
+template <class P, class V, class F, std::size_t N>
+concept MustSplat = (MapsRadius2<decltype(P::kernel), scalar_t<V>> ||
+                     explain_kernel_scalar<decltype(P::kernel), scalar_t<V>>()) &&
+                    (FootprintPolicy<decltype(P::collapse), V> || explain_collapse<decltype(P::collapse), V>()) &&
+                    (FootprintPolicy<decltype(P::excess), V> || explain_excess<decltype(P::excess), V>()) &&
+                    (ShapesFootprint<decltype(P::shape), Deposit<V, F, N>, V> ||
+                     explain_shape<decltype(P::shape), Deposit<V, F, N>, V>());
+} // namespace detail
+
 /// Turns a photon's deposit into a splat onto a map.
-template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collapse, class Excess, class Shape,
-          class Order>
-    requires Kernel<K, scalar_t<V>> && FiltersPixels<Filter> && FootprintPolicy<Collapse, V> &&
-        FootprintPolicy<Excess, V> && ShapesFootprint<Shape, Deposit<V, F, N>, V>
+template <Vector3 V, Flux F, std::size_t N, class Policies>
+    requires detail::MustSplat<Policies, V, F, N>
 [[nodiscard]] SplatOutcome<V, F> make_splat(const Deposit<V, F, N>& deposit, const EyePathMap<V>& map,
-                                            const SplatPolicies<K, Filter, Collapse, Excess, Shape, Order>& policies) {
+                                            const Policies& policies) {
+    using Filter = std::remove_cvref_t<decltype(policies.filter)>;
     using T = scalar_t<V>;
     using t = vector_traits<V>;
     SplatOutcome<V, F> outcome{}; // what every return names, so that none of them copies it
@@ -131,7 +99,9 @@ template <Vector3 V, Flux F, std::size_t N, class K, class Filter, class Collaps
         return outcome;
     }
     if constexpr (!std::same_as<Filter, NoPixelFilter>)
-        ellipse = add_disk(ellipse, T(pixel_filter_width<K> * policies.filter.width_scale) * spacing);
+        ellipse = add_disk(ellipse, T(pixel_filter_width<std::remove_cvref_t<decltype(policies.kernel)>> *
+                                      policies.filter.width_scale) *
+                                        spacing);
     if (!judged(policies.collapse(ellipse, spacing))) {
         outcome.fate = Fate::collapsed;
         return outcome;

@@ -15,6 +15,4 @@ struct nephroid::vector_traits<Mine> {
     static float z(const Mine& v) { return v.z; }
 };
 
-nephroid::PhotonSplatter<Mine, float> make_splatter(const nephroid::EyePathMap<Mine>& map) {
-    return nephroid::PhotonSplatter<Mine, float>(map);
-}
+nephroid::Sums<Mine, float> make_sums(const nephroid::EyePathMap<Mine>& map) { return nephroid::sums<float>(map); }

@@ -26,10 +26,6 @@ using Bend = std::array<Space3, 3>;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-template <class Order>
-using Policies =
-    SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, Order>;
-
 [[nodiscard]] Whole deposit_of(const D& half_u, const D& half_v) {
     return {{0.3, -0.2, 0}, {0, 0, 1}, {0, 0, -1}, 3, {2.0 * half_u, 2.0 * half_v}};
 }
@@ -71,11 +67,11 @@ template <class Order, class E = SerialExecutor>
     const EyePathMap<Vec> map(vertices, &tests::FloorVertex<Vec>::position, &tests::FloorVertex<Vec>::normal);
     const DirectionalLight<Vec, float> sun(
         {.direction = {0.1f, 0, -1}, .irradiance = 1, .patch = BoundingSphere<Vec>{{0, 0, 1.5f}, 1.25f}});
-    PhotonSplatter<Vec, float, Policies<Order>> splatter(map, Policies<Order>{.order = order});
+    auto sums = nephroid::sums<float>(map);
     Picture picture{std::vector<float>(vertices.size()), {}};
-    picture.account = splat_caustics(tests::GlassBall<Vec, float>{.tint = 1}, sun, splatter, {.count = photons},
-                                     HaltonSequence(1), executor);
-    splatter.for_each([&](std::size_t i, float e) { picture.irradiance[i] = e; });
+    picture.account = nephroid::caustics(tests::GlassBall<Vec, float>{.tint = 1}, sun, sums, {.count = photons},
+                                         Default{}.with_order(order), HaltonSequence(1), executor);
+    sums.for_each([&](std::size_t i, float e) { picture.irradiance[i] = e; });
     return picture;
 }
 
@@ -197,19 +193,19 @@ TEST_CASE("curved footprints: pieces that nobody sees are booked as unseen") {
     for (int i = 0; i < 100; ++i)
         vertices.push_back({D(0.1 * (i % 10), 0.1 * (i / 10), 0)});
     const EyePathMap<D> map(vertices, &Vertex::position, [](const Vertex&) { return D(0, 0, 1); });
-    using Splatter = PhotonSplatter<D, double>;
-    const Splatter splatter(map);
+    auto sums = nephroid::sums<double>(map);
+    const detail::Splatter splatter(sums, Published{});
     std::vector<Whole> pieces{deposit_of({0.05, 0, 0}, {0, 0.05, 0}), deposit_of({0.05, 0, 0}, {0, 0.05, 0})};
     pieces[0].position = D(50, 0, 0);
     pieces[1].position = D(0.5, 0.5, 0);
-    Splatter::Chunk chunk;
+    detail::SplatChunk<D, double> chunk;
     Statistics account;
-    chunk.add(splatter, std::span<const Whole>(pieces), account);
+    splatter.prepare(std::span<const Whole>(pieces), chunk, account);
     CHECK(account[Fate::splatted].photons == 1);
     CHECK(account[Fate::splatted].flux == 3);
     CHECK(account[Fate::unseen].photons == 0);
     CHECK(account[Fate::unseen].flux == 3);
-    chunk.add(splatter, std::span<const Whole>(pieces.data(), 1), account);
+    splatter.prepare(std::span<const Whole>(pieces.data(), 1), chunk, account);
     CHECK(account[Fate::unseen].photons == 1);
     CHECK(account[Fate::unseen].flux == 6);
 }

@@ -4,7 +4,7 @@
 #include "smoothing/second_order/maps.hpp"
 #include "support/space.hpp"
 
-#include "nephroid/splat/photon_splatter.hpp"
+#include "nephroid/splat/splat_photons.hpp"
 
 #include <doctest/doctest.h>
 
@@ -72,15 +72,15 @@ template <class Order>
         exact.push_back(1 / landing.d_u.x);
     }
     const EyePathMap<D> map(vertices, &Vertex::position, [](const Vertex&) { return D(0, 0, 1); });
-    using Policies = SplatPolicies<BiweightKernel, NoPixelFilter>;
-    using Splatter = PhotonSplatter<D, double, Policies>;
-    Splatter splatter(map, Policies{.excess = {.diagonals = 100}});
+    const auto policies = Published{.excess = {.diagonals = 100}}.with_filter(NoPixelFilter{});
+    auto sums = nephroid::sums<double>(map);
+    detail::Splatter splatter(sums, policies);
 
     const double photons = steps * steps, smoothing = reach / unit_of(photons);
     const auto pilot = photons_of(one_axis, lattice(40, 40), photons);
     const Footprints footprints =
         footprints_of(pilot, {.smoothing = smoothing, .stratified = true, .photons = photons});
-    std::vector<Splatter::Chunk> chunk(1);
+    std::vector<detail::SplatChunk<D, double>> chunk(1);
     Statistics account;
     for (double u = 0.5 / steps; u < 1; u += 1 / steps)
         for (double v = 0.5 - std::ceil(reach * steps) / steps + 0.5 / steps; v < 0.5 + reach; v += 1 / steps) {
@@ -92,12 +92,12 @@ template <class Order>
                 for (D& tangent : photon.deposit->d_position)
                     tangent *= smoothing;
             }
-            chunk[0].add(splatter, *photon.deposit, account);
+            splatter.prepare(*photon.deposit, chunk[0], account);
         }
     SerialExecutor executor;
-    splatter.add(std::span<const Splatter::Chunk>(chunk), executor);
+    splatter.add(std::span<const detail::SplatChunk<D, double>>(chunk), executor);
     double sum = 0;
-    splatter.for_each([&](std::size_t i, double e) { sum += square(e / exact[i] - 1); });
+    sums.for_each([&](std::size_t i, double e) { sum += square(e / exact[i] - 1); });
     return std::sqrt(sum / double(vertices.size()));
 }
 
@@ -146,11 +146,11 @@ TEST_CASE("second order: where footprints narrow towards a border the light stay
     for (double d = 16; d <= 24; d += 0.5)
         vertices.push_back({D(d * unit_of(photons), 0.5, 0)});
     const EyePathMap<D> map(vertices, &Vertex::position, [](const Vertex&) { return D(0, 0, 1); });
-    using Policies = SplatPolicies<BiweightKernel, NoPixelFilter>;
-    using Splatter = PhotonSplatter<D, double, Policies>;
+    const auto policies = Published{.excess = {.diagonals = 100}}.with_filter(NoPixelFilter{});
     const auto mean = [&](bool shifted) {
-        Splatter splatter(map, Policies{.excess = {.diagonals = 100}});
-        std::vector<Splatter::Chunk> chunk(1);
+        auto sums = nephroid::sums<double>(map);
+        detail::Splatter splatter(sums, policies);
+        std::vector<detail::SplatChunk<D, double>> chunk(1);
         Statistics account;
         for (MapPhoton photon : all) {
             const D before = photon.deposit->position;
@@ -159,12 +159,12 @@ TEST_CASE("second order: where footprints narrow towards a border the light stay
             (void)footprints.apply(photon);
             if (!shifted)
                 photon.deposit->position = before;
-            chunk[0].add(splatter, *photon.deposit, account);
+            splatter.prepare(*photon.deposit, chunk[0], account);
         }
         SerialExecutor executor;
-        splatter.add(std::span<const Splatter::Chunk>(chunk), executor);
+        splatter.add(std::span<const detail::SplatChunk<D, double>>(chunk), executor);
         double sum = 0;
-        splatter.for_each([&](std::size_t, double e) { sum += e / double(vertices.size()); });
+        sums.for_each([&](std::size_t, double e) { sum += e / double(vertices.size()); });
         return sum;
     };
     CHECK(mean(true) == doctest::Approx(1.0095).epsilon(0.02));

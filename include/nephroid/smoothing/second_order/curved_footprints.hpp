@@ -8,7 +8,7 @@
 #pragma once
 
 #include "nephroid/footprint/ellipse.hpp"
-#include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/smoothing/policies.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
 #include "nephroid/transport/deposit.hpp"
 
@@ -19,22 +19,7 @@
 
 namespace nephroid {
 
-/// As SecondOrder, and photons about which the map bends are splatted in seven pieces: for sharp folds, and for scenes
-/// where rays cost far more than splats. A type for `SplatPolicies::order`; who does not use it pays nothing.
-struct CurvedFootprints : SecondOrder {
-    /// Photons whose footprint bends by less than this part of its minor radius (the norm of the second derivatives
-    /// along its semi-axes over that) stay one ellipse, >= 0
-    double least_bend = 0.5;
-};
-
 namespace detail {
-inline void check(const CurvedFootprints& order, const char* who) {
-    check(static_cast<const SecondOrder&>(order), who);
-    if (!(order.least_bend >= 0))
-        invalid_argument(std::string(who) + ": CurvedFootprints: least_bend is " + text_of(order.least_bend) +
-                         "; it must not be negative");
-}
-
 /// A part of the unit disk, of half its radius.
 struct DiskPiece {
     Plane2 place;

@@ -2,7 +2,7 @@
 /// @file  What chooses the footprints of one light's photons, and what is then said of one of them.
 #pragma once
 
-#include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/smoothing/policies.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
 #include "nephroid/vector/plane.hpp"
 

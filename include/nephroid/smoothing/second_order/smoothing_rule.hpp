@@ -10,7 +10,7 @@
 /// tr(S Q) = 2 s² sqrt(det Q). That leaves a minimum over s alone.
 #pragma once
 
-#include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/smoothing/policies.hpp"
 #include "nephroid/vector/plane.hpp"
 #include "nephroid/vector/scalar.hpp"
 

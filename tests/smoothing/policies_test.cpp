@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/smoothing/policies.hpp"
 
-#include "support/first_order.hpp"
 #include "support/glass_ball.hpp"
 
 #include "nephroid/vector/glm.hpp"
@@ -18,15 +17,16 @@ namespace {
 
 using V = glm::vec3;
 
-/// What `splat_caustics` says of a policy.
+/// What `caustics` says of a policy.
 [[nodiscard]] std::string complaint_about(const SecondOrder& order) {
     const std::vector<tests::FloorVertex<V>> nothing;
     const EyePathMap<V> map(nothing, &tests::FloorVertex<V>::position, &tests::FloorVertex<V>::normal);
-    PhotonSplatter<V, float> splatter(map, {.order = order});
+    auto sums = nephroid::sums<float>(map);
     const DirectionalLight<V, float> light(
         {.direction = {0, 0, -1}, .irradiance = 1, .patch = BoundingSphere<V>{{0, 0, 1.5f}, 1}});
     try {
-        (void)splat_caustics(tests::GlassBall<V, float>{.tint = 1}, light, splatter, {.count = 100});
+        (void)nephroid::caustics(tests::GlassBall<V, float>{.tint = 1}, light, sums, {.count = 100},
+                                 Default{.order = order});
     } catch (const std::invalid_argument& error) {
         return error.what();
     }
@@ -35,8 +35,8 @@ using V = glm::vec3;
 
 } // namespace
 
-static_assert(std::is_same_v<decltype(SplatPolicies<>::order), SecondOrder>);
-static_assert(std::is_same_v<decltype(tests::FirstOrderPolicies::order), FirstOrder>);
+static_assert(std::is_same_v<decltype(Default::order), SecondOrder>);
+static_assert(std::is_same_v<decltype(Published::order), FirstOrder>);
 static_assert(std::is_empty_v<FirstOrder>);
 
 TEST_CASE("second-order policy: the defaults and bounds without end are taken") {
@@ -54,7 +54,7 @@ TEST_CASE("second-order policy: what cannot be is named") {
     const auto check = [](const SecondOrder& order, const std::string& words) {
         const std::string complaint = complaint_about(order);
         CAPTURE(complaint);
-        CHECK(complaint.starts_with("nephroid::splat_caustics: SecondOrder: "));
+        CHECK(complaint.starts_with("nephroid::caustics: SecondOrder: "));
         CHECK(complaint.find(words) != std::string::npos);
     };
     check({.bounds = {.least = 0}}, "bounds.least is 0");

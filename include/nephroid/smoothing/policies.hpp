@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// @file  Whether photons are splatted to first or to second order, and within which bounds.
+/// @file  Splatting to second order, within which bounds: the default policies.
 #pragma once
 
+#include "nephroid/splat/splat_policies.hpp"
 #include "nephroid/vector/error.hpp"
-#include "nephroid/vector/scalar.hpp"
 #include "nephroid/vector/text.hpp"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace nephroid {
 
-/// Bounds on what the rule may choose, in units of u0.
+/// Bounds on the footprints that are chosen, in units of u0, the radius for which they cover the light's domain once.
 struct SmoothingBounds {
     double least = 5;           ///< s: smaller footprints show photons
     double least_radius = 2;    ///< along any direction: a sequence is not stratified along thinner ones
@@ -29,12 +29,10 @@ struct SmoothingBounds {
     return bounds;
 }
 
-/// Photons are splatted where they land, all with the same smoothing [Frisvad et al. 2014].
-struct FirstOrder {};
-
 /// Photons are splatted where their bias cancels; without a smoothing given (`PhotonPass::smoothing`) each one's
 /// footprint is chosen from the photons around it. The default.
 struct SecondOrder {
+    static constexpr bool uses_neighbours = true;
     SmoothingBounds bounds{};
     double largest_shift =
         0.125; ///< of the longer of the footprint's new tangents, halved; longer ones are shortened, and
@@ -44,18 +42,26 @@ struct SecondOrder {
                                  ///< opposite borders of the patch are neighbours; of no effect on area lights
 };
 
-/// s where none is given: of first order, and of photons about which neither their neighbours say nor the others
-/// together.
-inline constexpr double default_smoothing = 8;
+/// As SecondOrder, and photons around which the map bends are splatted in seven pieces: for sharp folds, and for scenes
+/// where rays cost far more than splats. Who does not use it pays nothing.
+struct CurvedFootprints : SecondOrder {
+    /// Photons whose footprint bends by less than this part of its minor radius (the norm of the second derivatives
+    /// along its semi-axes over that) stay one ellipse, >= 0
+    double least_bend = 0.5;
+};
+
+/// What `caustics` does unless told otherwise: as `Published`, but to second order.
+using Default =
+    SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, SecondOrder>;
 
 namespace detail {
 /// Complains of what cannot be; bounds may be infinite where there is to be none.
 ///
-/// @param who  the caller's name for the message
-inline void check(const SecondOrder& order, const char* who) {
-    const auto require = [who](bool holds, const char* name, const std::string& value, const char* rule) {
+/// @param caller  its name, for the message
+inline void check(const SecondOrder& order, const char* caller) {
+    const auto require = [caller](bool holds, const char* name, const std::string& value, const char* rule) {
         if (!holds)
-            invalid_argument(std::string(who) + ": SecondOrder: " + name + " is " + value + "; " + rule);
+            invalid_argument(std::string(caller) + ": SecondOrder: " + name + " is " + value + "; " + rule);
     };
     const SmoothingBounds& bounds = order.bounds;
     require(bounds.least > 0 && std::isfinite(bounds.least), "bounds.least", text_of(bounds.least),
@@ -67,6 +73,13 @@ inline void check(const SecondOrder& order, const char* who) {
     require(bounds.stretch >= 1, "bounds.stretch", text_of(bounds.stretch), "it must be at least 1");
     require(order.largest_shift >= 0, "largest_shift", text_of(order.largest_shift), "it must not be negative");
     require(order.pilot >= 1, "pilot", std::to_string(order.pilot), "it must be at least 1");
+}
+
+inline void check(const CurvedFootprints& order, const char* caller) {
+    check(static_cast<const SecondOrder&>(order), caller);
+    if (!(order.least_bend >= 0))
+        invalid_argument(std::string(caller) + ": CurvedFootprints: least_bend is " + text_of(order.least_bend) +
+                         "; it must not be negative");
 }
 } // namespace detail
 

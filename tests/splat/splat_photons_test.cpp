@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
+#include "nephroid/splat/splat_photons.hpp"
+
 #include "nephroid/execution/thread_executor.hpp"
-#include "nephroid/splat/photon_splatter.hpp"
 
 #include "support/brute_force.hpp"
+#include "support/discard_excess.hpp"
 #include "support/is_sanitized.hpp"
 #include "support/space.hpp"
 
@@ -64,32 +66,28 @@ std::vector<Deposit<Vec<T>, F>> photons(int count, F flux = F(1)) {
     return deposits;
 }
 
-/// Splats in chunks of this many.
-template <class Splatter, class V, class F>
-Statistics splat(Splatter& splatter, const std::vector<Deposit<V, F>>& deposits, std::size_t per_chunk = 64) {
-    Statistics account;
-    std::vector<typename Splatter::Chunk> chunks((deposits.size() + per_chunk - 1) / per_chunk);
-    for (std::size_t i = 0; i < deposits.size(); ++i) {
-        ++account.emitted.photons;
-        account.emitted.flux += flux_traits<F>::power(deposits[i].flux);
-        chunks[i / per_chunk].add(splatter, deposits[i], account);
-    }
-    SerialExecutor executor;
-    splatter.add(std::span<const typename Splatter::Chunk>(chunks), executor);
-    return account;
-}
-
-template <class Splatter>
-auto sums(const Splatter& splatter, std::size_t count) {
-    using F = typename Splatter::flux_type;
+template <class V, class F, class R>
+auto image_of(const Sums<V, F, R>& sums, std::size_t count) {
     std::vector<F> image(count, flux_traits<F>::zero());
     std::vector<int> times(count);
-    splatter.for_each([&](std::size_t i, const F& sum) {
+    sums.for_each([&](std::size_t i, const F& sum) {
         image.at(i) = sum;
         ++times[i];
     });
     CHECK(std::all_of(times.begin(), times.end(), [](int n) { return n == 1; }));
     return image;
+}
+
+/// Splats in so many chunks at once.
+template <class V, class F, class R, class E = SerialExecutor>
+void splat_in_chunks(const std::vector<Deposit<V, F>>& deposits, Sums<V, F, R>& sums, std::size_t count,
+                     E&& executor = E{}) {
+    detail::Splatter splatter(sums, Published{});
+    std::vector<detail::SplatChunk<V, F>> chunks(count);
+    Statistics unused;
+    for (std::size_t i = 0; i < deposits.size(); ++i)
+        splatter.prepare(deposits[i], chunks[i * count / deposits.size()], unused);
+    splatter.add(std::span<const detail::SplatChunk<V, F>>(chunks), executor);
 }
 
 /// The same by brute force, with the spacing that the map reports where each photon landed.
@@ -121,7 +119,7 @@ void check_image(const std::vector<F>& image, const std::vector<Received>& expec
 
 } // namespace
 
-TEST_CASE_TEMPLATE("photon splatter: adds up what brute force over all vertices adds up", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: adds up what brute force over all vertices adds up", T, float, double) {
     const auto vertices = room<T>();
     const auto map = map_of(vertices);
     const auto deposits = photons<T>(400);
@@ -130,39 +128,38 @@ TEST_CASE_TEMPLATE("photon splatter: adds up what brute force over all vertices 
     const auto epanechnikov = [&](double r2) { return 2 / pi * (1 - r2); };
     const auto uniform = [&](double) { return 1 / pi; };
     SUBCASE("with the default policies") {
-        PhotonSplatter<Vec<T>, T> splatter(map);
-        splat(splatter, deposits);
-        check_image(sums(splatter, vertices.size()), expected(vertices, map, deposits, biweight, std::sqrt(2.0 / 3)));
+        auto sums = nephroid::sums<T>(map);
+        splat(deposits, sums);
+        check_image(image_of(sums, vertices.size()), expected(vertices, map, deposits, biweight, std::sqrt(2.0 / 3)));
     }
     SUBCASE("with another kernel") {
-        const SplatPolicies<EpanechnikovKernel> policies{};
-        PhotonSplatter<Vec<T>, T, SplatPolicies<EpanechnikovKernel>> splatter(map, policies);
-        splat(splatter, deposits);
-        check_image(sums(splatter, vertices.size()), expected(vertices, map, deposits, epanechnikov, std::sqrt(0.5)));
+        auto sums = nephroid::sums<T>(map);
+        splat(deposits, sums, {}, Published{}.with_kernel(EpanechnikovKernel{}));
+        check_image(image_of(sums, vertices.size()), expected(vertices, map, deposits, epanechnikov, std::sqrt(0.5)));
     }
     SUBCASE("with a kernel that jumps at the edge") {
-        PhotonSplatter<Vec<T>, T, SplatPolicies<UniformKernel>> splatter(map);
-        splat(splatter, deposits);
-        check_image(sums(splatter, vertices.size()), expected(vertices, map, deposits, uniform, std::sqrt(1.0 / 3)));
+        auto sums = nephroid::sums<T>(map);
+        splat(deposits, sums, {}, Published{}.with_kernel(UniformKernel{}));
+        check_image(image_of(sums, vertices.size()), expected(vertices, map, deposits, uniform, std::sqrt(1.0 / 3)));
     }
     SUBCASE("with a wider filter and a thicker slab") {
-        const SplatPolicies<> policies{.filter = {2}, .normal_distance = 1.5};
-        PhotonSplatter<Vec<T>, T> splatter(map, policies);
-        splat(splatter, deposits);
-        check_image(sums(splatter, vertices.size()),
+        const Published policies{.filter = {2}, .normal_distance = 1.5};
+        auto sums = nephroid::sums<T>(map);
+        splat(deposits, sums, {}, policies);
+        check_image(image_of(sums, vertices.size()),
                     expected(vertices, map, deposits, biweight, 2 * std::sqrt(2.0 / 3), 1.5));
     }
 }
 
 // Floor and back are a thousandth apart, thinner than any slab: what counts is which way they face.
-TEST_CASE_TEMPLATE("photon splatter: a vertex that faces away receives nothing", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: a vertex that faces away receives nothing", T, float, double) {
     const auto vertices = room<T>();
     const auto map = map_of(vertices);
     const Vec<T> up{0, 0, 1}, a{T(0.3), 0, 0}, b{0, T(0.3), 0};
     for (const T side : {T(1), T(-1)}) {
-        PhotonSplatter<Vec<T>, T> splatter(map);
-        splat(splatter, std::vector<Deposit<Vec<T>, T>>{{{T(0.5), T(0.5), 0}, side * up, -side * up, T(1), {a, b}}});
-        const auto image = sums(splatter, vertices.size());
+        auto sums = nephroid::sums<T>(map);
+        splat(std::vector<Deposit<Vec<T>, T>>{{{T(0.5), T(0.5), 0}, side * up, -side * up, T(1), {a, b}}}, sums);
+        const auto image = image_of(sums, vertices.size());
         double floor = 0, back = 0, wall = 0;
         for (std::size_t i = 0; i < 1024; ++i)
             floor += double(image[i]), back += double(image[1024 + i]), wall += double(image[2048 + i]);
@@ -173,7 +170,7 @@ TEST_CASE_TEMPLATE("photon splatter: a vertex that faces away receives nothing",
 }
 
 // One leaf whose vertices face every way: each is asked on its own.
-TEST_CASE_TEMPLATE("photon splatter: in a leaf of mixed normals every vertex is asked", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: in a leaf of mixed normals every vertex is asked", T, float, double) {
     Draws draw(72);
     std::vector<Vertex<Vec<T>>> vertices;
     for (int i = 0; i < 61; ++i) // not a multiple of the lanes
@@ -183,15 +180,16 @@ TEST_CASE_TEMPLATE("photon splatter: in a leaf of mixed normals every vertex is 
     for (int i = 0; i < 20; ++i) {
         const auto n = tests::narrow<Vec<T>>(draw.direction());
         const auto [u, v] = frame_about(n);
-        PhotonSplatter<Vec<T>, T> splatter(map, SplatPolicies<>{.normal_distance = 2}); // so that all are near enough
-        splat(splatter, std::vector<Deposit<Vec<T>, T>>{{{T(0.5), T(0.5), 0}, n, -n, T(1), {T(4) * u, T(4) * v}}});
-        const auto image = sums(splatter, vertices.size());
+        auto sums = nephroid::sums<T>(map);
+        splat(std::vector<Deposit<Vec<T>, T>>{{{T(0.5), T(0.5), 0}, n, -n, T(1), {T(4) * u, T(4) * v}}}, sums, {},
+              Published{.normal_distance = 2}); // so that all are near enough
+        const auto image = image_of(sums, vertices.size());
         for (std::size_t k = 0; k < vertices.size(); ++k)
             CHECK((image[k] > T(0)) == (dot(vertices[k].normal, n) > T(0)));
     }
 }
 
-TEST_CASE_TEMPLATE("photon splatter: a vertex off the tangent plane receives nothing", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: a vertex off the tangent plane receives nothing", T, float, double) {
     std::vector<Vertex<Vec<T>>> vertices;
     for (int layer = 0; layer < 20; ++layer) // stairs of a hundredth
         tests::add_lattice<T>(vertices, 8, 8, 0.125, {0, 0, 0.01 * layer}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
@@ -199,11 +197,11 @@ TEST_CASE_TEMPLATE("photon splatter: a vertex off the tangent plane receives not
     const Vec<T> up{0, 0, 1};
     // A fifth of the minor radius, 0.5; the vertices are less than a tenth apart.
     REQUIRE(double(map.spacing_at({T(0.4375), T(0.4375), 0})) < 0.1);
-    const SplatPolicies<BiweightKernel, NoPixelFilter> policies{.normal_distance = 0.21};
-    PhotonSplatter<Vec<T>, T, SplatPolicies<BiweightKernel, NoPixelFilter>> splatter(map, policies);
-    splat(splatter,
-          std::vector<Deposit<Vec<T>, T>>{{{T(0.4375), T(0.4375), 0}, up, -up, T(1), {Vec<T>{2, 0, 0}, {0, 1, 0}}}});
-    const auto image = sums(splatter, vertices.size());
+    const auto policies = Published{.normal_distance = 0.21}.with_filter(NoPixelFilter{});
+    auto sums = nephroid::sums<T>(map);
+    splat(std::vector<Deposit<Vec<T>, T>>{{{T(0.4375), T(0.4375), 0}, up, -up, T(1), {Vec<T>{2, 0, 0}, {0, 1, 0}}}},
+          sums, {}, policies);
+    const auto image = image_of(sums, vertices.size());
     for (std::size_t layer = 0; layer < 20; ++layer)
         CHECK((image[64 * layer + 27] > T(0)) == (0.01 * double(layer) < 0.105)); // the step nearest to the middle
 }
@@ -222,12 +220,12 @@ struct Tint {
 
 } // namespace
 
-TEST_CASE("photon splatter: a response weighs each photon by vertex and direction") {
+TEST_CASE("splat photons: a response weighs each photon by vertex and direction") {
     const auto vertices = room<float>();
     const auto map = map_of(vertices);
     auto deposits = photons<float>(200);
     Draws draw(73);
-    PhotonSplatter<glm::vec3, float, SplatPolicies<>, Gloss> splatter(map, {}, Gloss{});
+    auto sums = nephroid::sums<float>(map, Gloss{});
     std::vector<Received> expected(vertices.size());
     for (auto& deposit : deposits) {
         deposit.direction = tests::narrow<glm::vec3>(draw.direction());
@@ -242,27 +240,27 @@ TEST_CASE("photon splatter: a response weighs each photon by vertex and directio
             expected[i].tolerance += response * one[i].tolerance;
         }
     }
-    splat(splatter, deposits);
-    check_image(sums(splatter, vertices.size()), expected);
+    splat(deposits, sums);
+    check_image(image_of(sums, vertices.size()), expected);
 }
 
 // Three bands do what three fluxes do: each is the same product and sum, bit for bit unless a compiler fuses some of
 // them. 100 photons round 100 times then.
-TEST_CASE("photon splatter: a colour is three numbers") {
+TEST_CASE("splat photons: a colour is three numbers") {
     const auto vertices = room<float>();
     const auto map = map_of(vertices);
     const auto grey = photons<float>(100);
     std::vector<Deposit<glm::vec3, glm::vec3>> coloured;
     for (const auto& d : grey)
         coloured.push_back({d.position, d.normal, d.direction, {d.flux, 2 * d.flux, 0}, d.d_position});
-    PhotonSplatter<glm::vec3, float> one(map);
-    PhotonSplatter<glm::vec3, glm::vec3> three(map);
-    PhotonSplatter<glm::vec3, glm::vec3, SplatPolicies<>, Tint> tinted(map);
-    splat(one, grey);
-    const Statistics account = splat(three, coloured);
-    splat(tinted, coloured);
-    const auto grey_image = sums(one, vertices.size());
-    const auto image = sums(three, vertices.size()), tinted_image = sums(tinted, vertices.size());
+    auto one = nephroid::sums<float>(map);
+    auto three = nephroid::sums<glm::vec3>(map);
+    auto tinted = nephroid::sums<glm::vec3>(map, Tint{});
+    splat(grey, one);
+    const Statistics account = splat(coloured, three);
+    splat(coloured, tinted);
+    const auto grey_image = image_of(one, vertices.size());
+    const auto image = image_of(three, vertices.size()), tinted_image = image_of(tinted, vertices.size());
 #if defined(__FMA__)
     const double roundings = 100 * epsilon<float>;
 #else
@@ -282,50 +280,43 @@ TEST_CASE("photon splatter: a colour is three numbers") {
 }
 
 // The order of summation is that of the photons, however they are cut into chunks and calls.
-TEST_CASE_TEMPLATE("photon splatter: the sums do not depend on chunks nor on calls", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: the sums do not depend on chunks nor on calls", T, float, double) {
     const auto vertices = room<T>();
     const auto map = map_of(vertices);
     const auto deposits = photons<T>(300);
-    PhotonSplatter<Vec<T>, T> reference(map);
-    splat(reference, deposits, 1000);
-    const auto image = sums(reference, vertices.size());
-    for (const std::size_t per_chunk : {1u, 7u, 64u}) {
-        PhotonSplatter<Vec<T>, T> splatter(map);
-        splat(splatter, deposits, per_chunk);
-        CHECK(sums(splatter, vertices.size()) == image);
+    auto reference = nephroid::sums<T>(map);
+    splat_in_chunks(deposits, reference, 1);
+    const auto image = image_of(reference, vertices.size());
+    for (const std::size_t chunks : {300u, 43u, 5u}) {
+        auto sums = nephroid::sums<T>(map);
+        splat_in_chunks(deposits, sums, chunks);
+        CHECK(image_of(sums, vertices.size()) == image);
         // Cleared, it starts anew; in two calls.
-        splatter.clear();
-        CHECK(sums(splatter, vertices.size()) == std::vector<T>(vertices.size()));
-        splat(splatter, std::vector(deposits.begin(), deposits.begin() + 111), per_chunk);
-        splat(splatter, std::vector(deposits.begin() + 111, deposits.end()), per_chunk);
-        CHECK(sums(splatter, vertices.size()) == image);
+        sums.clear();
+        CHECK(image_of(sums, vertices.size()) == std::vector<T>(vertices.size()));
+        splat(std::span(deposits).first(111), sums);
+        splat(std::span(deposits).subspan(111), sums);
+        CHECK(image_of(sums, vertices.size()) == image);
     }
 }
 
-TEST_CASE("photon splatter: several threads give the same sums bit for bit") {
+TEST_CASE("splat photons: several threads give the same sums bit for bit") {
     const auto vertices = room<float>();
     const auto map = map_of(vertices);
     const auto deposits = photons<float>(300);
     std::vector<std::vector<float>> images;
     for (const unsigned threads : {1u, 2u, 7u}) {
         ThreadExecutor executor(threads);
-        PhotonSplatter<glm::vec3, float> splatter(map);
-        using Chunk = PhotonSplatter<glm::vec3, float>::Chunk;
-        std::vector<Chunk> chunks(6);
-        std::vector<Statistics> accounts(6);
-        executor(6, [&](std::size_t c) {
-            for (std::size_t i = 50 * c; i < 50 * (c + 1); ++i)
-                chunks[c].add(splatter, deposits[i], accounts[c]);
-        });
-        splatter.add(std::span<const Chunk>(chunks), executor);
-        images.push_back(sums(splatter, vertices.size()));
+        auto sums = nephroid::sums<float>(map);
+        splat(deposits, sums, {}, executor);
+        images.push_back(image_of(sums, vertices.size()));
     }
     CHECK(images[1] == images[0]);
     CHECK(images[2] == images[0]);
 }
 
 // More than 32,768 leaves, which then are in groups of more than four. Against the sums of one chunk after another.
-TEST_CASE("photon splatter: a map of many leaves is summed by several threads bit for bit" *
+TEST_CASE("splat photons: a map of many leaves is summed by several threads bit for bit" *
           doctest::skip(is_sanitized)) {
     using V = glm::vec3;
     constexpr std::size_t side = 1500;
@@ -341,25 +332,20 @@ TEST_CASE("photon splatter: a map of many leaves is summed by several threads bi
                             {0, 0, -1},
                             1,
                             {V(draw.in(0.005, 0.03), 0, 0), V(draw.in(-0.01, 0.01), draw.in(0.005, 0.03), 0)}});
-    PhotonSplatter<V, float> reference(map);
-    splat(reference, deposits, deposits.size());
-    const auto image = sums(reference, vertices.size());
+    auto reference = nephroid::sums<float>(map);
+    splat_in_chunks(deposits, reference, 1);
+    const auto image = image_of(reference, vertices.size());
     CHECK(std::count(image.begin(), image.end(), 0.0f) < std::ptrdiff_t(image.size() / 2));
-    using Chunk = PhotonSplatter<V, float>::Chunk;
     ThreadExecutor threads(3);
     for (const std::size_t count : {5u, 17u, 64u}) {
-        PhotonSplatter<V, float> splatter(map);
-        std::vector<Chunk> chunks(count);
-        Statistics account;
-        for (std::size_t i = 0; i < deposits.size(); ++i)
-            chunks[i * count / deposits.size()].add(splatter, deposits[i], account);
-        splatter.add(std::span<const Chunk>(chunks), threads);
+        auto sums = nephroid::sums<float>(map);
+        splat_in_chunks(deposits, sums, count, threads);
         CAPTURE(count);
-        CHECK(sums(splatter, vertices.size()) == image);
+        CHECK(image_of(sums, vertices.size()) == image);
     }
 }
 
-TEST_CASE_TEMPLATE("photon splatter: books what became of each photon", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: books what became of each photon", T, float, double) {
     const auto vertices = room<T>();
     const auto map = map_of(vertices);
     const Vec<T> up{0, 0, 1}, centre{T(0.5), T(0.5), 0}, a{T(0.1), 0, 0}, b{0, T(0.1), 0}, zero{0, 0, 0};
@@ -370,9 +356,9 @@ TEST_CASE_TEMPLATE("photon splatter: books what became of each photon", T, float
         {centre, up, -up, T(8), {T(1e4) * a, b}},       // excessive
         {centre, up, -up, T(16), {T(NAN) * a, b}},      // invalid
     };
-    using Policies = SplatPolicies<BiweightKernel, NoPixelFilter, DiscardCollapsed, DiscardExcess>;
-    PhotonSplatter<Vec<T>, T, Policies> splatter(map);
-    const Statistics account = splat(splatter, deposits);
+    auto sums = nephroid::sums<T>(map);
+    const Statistics account =
+        splat(deposits, sums, {}, Published{}.with_filter(NoPixelFilter{}).with_excess(tests::DiscardExcess{}));
     CHECK(account[Fate::splatted].flux == 1);
     CHECK(account[Fate::unseen].flux == 2);
     CHECK(account[Fate::collapsed].flux == 4);
@@ -383,38 +369,64 @@ TEST_CASE_TEMPLATE("photon splatter: books what became of each photon", T, float
     CHECK(account.bounded_footprints == 0);
 
     // With the default policies nothing is discarded that has a position, and what is changed is counted.
-    PhotonSplatter<Vec<T>, T> keeps(map);
-    const Statistics kept = splat(keeps, deposits);
+    auto keeps = nephroid::sums<T>(map);
+    const Statistics kept = splat(deposits, keeps);
     CHECK(kept[Fate::splatted].flux == 13);
     CHECK(kept[Fate::collapsed].photons == 0);
     CHECK(kept[Fate::excessive].photons == 0);
     CHECK(kept.bounded_footprints == 1);
-    for (const T sum : sums(keeps, vertices.size()))
+    for (const T sum : image_of(keeps, vertices.size()))
         CHECK(isfinite(sum));
 }
 
-TEST_CASE_TEMPLATE("photon splatter: on an empty map every photon is unseen", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: on an empty map every photon is unseen", T, float, double) {
     const std::vector<Vertex<Vec<T>>> nothing;
     const auto map = map_of(nothing);
-    PhotonSplatter<Vec<T>, T> splatter(map);
+    auto sums = nephroid::sums<T>(map);
     const auto deposits = photons<T>(50);
-    const Statistics account = splat(splatter, deposits);
+    const Statistics account = splat(deposits, sums);
     CHECK(account[Fate::unseen].photons + account[Fate::collapsed].photons == 50);
     CHECK(account[Fate::unseen].photons >= 49);
-    CHECK(sums(splatter, 0).empty());
+    CHECK(image_of(sums, 0).empty());
 }
 
 // Distances across a needle overflow at a far vertex, and their difference would be no number.
-TEST_CASE_TEMPLATE("photon splatter: a needle thinner than any makes no vertex a NaN", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: a needle thinner than any makes no vertex a NaN", T, float, double) {
     std::vector<Vertex<Vec<T>>> vertices;
     tests::add_lattice<T>(vertices, 8, 8, 1e4, {-35000, -35000, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
     const auto map = map_of(vertices);
-    PhotonSplatter<Vec<T>, T, SplatPolicies<BiweightKernel, NoPixelFilter>> splatter(map);
+    auto sums = nephroid::sums<T>(map);
     const Vec<T> up{0, 0, 1}, diagonal{1, 1, 0}, across{-1, 1, 0};
     for (const T width : {T(1e-30), T(1e-34), T(1e-36), (std::numeric_limits<T>::min)() * 8})
-        splat(splatter,
-              std::vector<Deposit<Vec<T>, T>>{{{1, 2, 0}, up, -up, T(1), {diagonal, width * across}},
-                                              {{1, 2, 0}, up, -up, T(1), {width * diagonal, width * across}}});
-    for (const T sum : sums(splatter, vertices.size()))
+        splat(std::vector<Deposit<Vec<T>, T>>{{{1, 2, 0}, up, -up, T(1), {diagonal, width * across}},
+                                              {{1, 2, 0}, up, -up, T(1), {width * diagonal, width * across}}},
+              sums, {}, Published{}.with_filter(NoPixelFilter{}));
+    for (const T sum : image_of(sums, vertices.size()))
         CHECK(isfinite(sum));
+}
+
+TEST_CASE("splat photons: rescaling multiplies tangents and fluxes") {
+    const auto vertices = room<float>();
+    const auto map = map_of(vertices);
+    auto deposits = photons<float>(100);
+    auto sums = nephroid::sums<float>(map), expected = nephroid::sums<float>(map);
+    splat(deposits, sums, {.smoothing = 4, .flux = 0.5});
+    for (auto& deposit : deposits) {
+        deposit.flux *= 0.5f;
+        for (glm::vec3& tangent : deposit.d_position)
+            tangent *= 4.0f;
+    }
+    splat(deposits, expected);
+    CHECK(image_of(sums, vertices.size()) == image_of(expected, vertices.size()));
+}
+
+TEST_CASE("splat photons: a rescaling that cannot be is refused") {
+    const auto vertices = room<float>();
+    const auto map = map_of(vertices);
+    const auto deposits = photons<float>(4);
+    auto sums = nephroid::sums<float>(map);
+    CHECK_THROWS_WITH_AS(splat(deposits, sums, {.smoothing = 0}),
+                         "nephroid::splat: smoothing is 0; it must be positive and finite", std::invalid_argument);
+    CHECK_THROWS_WITH_AS(splat(deposits, sums, {.flux = -1}), "nephroid::splat: flux is -1; it must not be negative",
+                         std::invalid_argument);
 }

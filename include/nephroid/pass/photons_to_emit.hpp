@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+/// @file  How many photons to emit for a wanted number of caustic photons: a pilot pass.
+#pragma once
+
+#include "nephroid/emission/light.hpp"
+#include "nephroid/emission/spread.hpp"
+#include "nephroid/pass/call_arguments.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/sequence/sequence.hpp"
+#include "nephroid/transport/walk.hpp"
+#include "nephroid/vector/error.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nephroid {
+
+namespace detail {
+/// The share of emitted photons that become caustic photons, from the first few thousand of the very sequence that
+/// the picture is made with; more of them where caustics are rare. 0 if none of four million does.
+template <class S, class L, class Sequence, class E>
+[[nodiscard]] double share_of_caustic_photons(const S& scene, const L& light, const WalkLimits& limits,
+                                              const Sequence& sequence, E& executor) {
+    constexpr std::size_t chunk = 1024, enough = 256, most = std::size_t(1) << 22;
+    const Spread<scalar_t<typename L::vector>> spread{1, 1};
+    std::size_t found = 0, tried = 0;
+    for (std::size_t wanted = 4 * chunk; tried < most && found < enough; wanted *= 4) {
+        std::vector<std::size_t> counts((wanted - tried) / chunk);
+        executor(counts.size(), [&](std::size_t c) {
+            Statistics unused;
+            for (std::size_t i = tried + c * chunk; i < tried + (c + 1) * chunk; ++i) {
+                Sampler<Sequence> sampler(sequence, i);
+                counts[c] += walk(scene, light.emit(sampler, spread), sampler, limits, unused).has_value();
+            }
+        });
+        for (const std::size_t count : counts)
+            found += count;
+        tried = wanted;
+    }
+    return double(found) / double(tried);
+}
+} // namespace detail
+
+/// How many photons to emit so that about so many become caustic photons: what `PhotonPass::count` takes.
+///
+/// ```cpp
+/// const auto count = nephroid::photons_to_emit(scene, light, 50'000, {}, threads);
+/// nephroid::caustics(scene, light, sums, {.count = count}, threads);
+/// ```
+///
+/// @param scene, light  as for `caustics`
+/// @param wanted        photons that reach a diffuse surface through a specular one
+/// @param limits        those of the pass
+/// @param arguments     in any order, none needed: the sequence of the pass, an executor. The result does not depend on
+///                      the executor
+/// @return  0 if no photon of four million arrives: there is no diffuse surface that a caustic falls on
+/// Throws std::invalid_argument where 10^18 and more would be needed. Cost: 4096 photons, up to four million where
+/// caustics are rare.
+template <class S, class L, class... Arguments>
+    requires(detail::MustBeOneOf<Arguments, detail::SequenceKind, detail::ExecutorKind>&&...)
+[[nodiscard]] std::uint64_t photons_to_emit(const S& scene, const L& light, std::uint64_t wanted,
+                                            const WalkLimits& limits = {}, Arguments&&... arguments) {
+    const HaltonSequence sequence{};
+    const SerialExecutor executor{};
+    const double share = detail::share_of_caustic_photons(
+        scene, light, limits, detail::argument_of<detail::SequenceKind>(sequence, arguments...),
+        detail::argument_of<detail::ExecutorKind>(executor, arguments...));
+    if (share == 0)
+        return 0;
+    const double emitted = std::ceil(double(wanted) / share);
+    if (!(emitted < 1e18))
+        invalid_argument("nephroid::photons_to_emit: " + std::to_string(wanted) +
+                         " caustic photons are too many; only one photon in " + std::to_string(std::lround(1 / share)) +
+                         " makes a caustic here");
+    return static_cast<std::uint64_t>(emitted);
+}
+
+} // namespace nephroid

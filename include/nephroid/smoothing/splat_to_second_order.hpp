@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+/// @file  Splatting to second order: the first photons of a pass say how large and where the splats of all are.
+#pragma once
+
+#include "nephroid/pass/traced_batch.hpp"
+#include "nephroid/smoothing/cross_validation.hpp"
+#include "nephroid/smoothing/pilot.hpp"
+#include "nephroid/smoothing/policies.hpp"
+#include "nephroid/smoothing/second_order/curved_footprints.hpp"
+#include "nephroid/splat/splat_in_batches.hpp"
+
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace nephroid::detail {
+
+/// Whether footprints are to be placed and sized by neighbouring photons: they need differentials for it.
+template <class Policies, class L>
+inline constexpr bool is_second_order = Light<L>&& decltype(Policies::order)::uses_neighbours&&
+    std::same_as<decltype(Policies::shape), DifferentialFootprint>;
+
+/// Splats a photon where its neighbours say, in the footprint or the pieces that they say.
+template <class Footprints, class Photon, class Splatter>
+void prepare_shifted(const Footprints& footprints, Photon& photon, const Splatter& splatter,
+                     typename Splatter::Chunk& chunk, Statistics& account) {
+    const auto& policies = splatter.policies();
+    if constexpr (std::derived_from<std::remove_cvref_t<decltype(policies.order)>, CurvedFootprints>) {
+        std::array<Space3, 3> second;
+        account.bounded_shifts += footprints.apply(photon, &second);
+        const double moment = std::remove_cvref_t<decltype(policies.kernel)>::second_moment;
+        splatter.prepare(curved(*photon.deposit, second, policies.order, moment).pieces(), chunk, account);
+    } else {
+        account.bounded_shifts += footprints.apply(photon);
+        splatter.prepare(*photon.deposit, chunk, account);
+    }
+}
+
+/// For the photons that have no neighbours to choose their footprints by (Footprints::has_cells).
+template <class Footprints, class V, class F, class R, class Policies, class Photon, class E>
+[[nodiscard]] double smoothing_without_cells(const Sums<V, F, R>& sums, const Policies& policies,
+                                             const Pilot<Photon>& pilot, const PhotonPass& pass, bool stratified,
+                                             E& executor) {
+    const auto deposit_of = [&pilot](std::size_t i) {
+        const Photon& photon = pilot.photons[i];
+        return Footprints::has_cells(photon.sample) ? std::nullopt : photon.deposit;
+    };
+    return cross_validated(sums, policies, pilot.photons.size(), double(pass.emitted_in_all()), stratified, deposit_of,
+                           executor);
+}
+
+template <class S, class L, class V, class F, class R, class Policies, class Sequence, class E>
+Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
+                                 const Policies& policies, const Sequence& sequence, E& executor) {
+    const auto pilot = trace_pilot(scene, light, pass, policies.order, sequence, executor);
+    auto footprints = footprints_from<emission_domains<L>>(pilot, pass, policies, double(sums.map().diagonal()),
+                                                           Sequence::stratified, executor);
+    if constexpr (emission_domains<L>.others)
+        if (!pass.smoothing)
+            footprints.smooth_others(smoothing_without_cells<decltype(footprints)>(sums, policies, pilot, pass,
+                                                                                   Sequence::stratified, executor));
+    Splatter splatter(sums, policies);
+    TracedBatch<traced_photon_t<L>> batch;
+    const auto trace_one = [&](std::uint64_t i, Statistics& account) {
+        return pilot.has(pass.first + i) ? pilot.take(pass.first + i, account)
+                                         : trace_photon(scene, light, pass, sequence, pass.first + i, account);
+    };
+    return splat_in_batches(
+        splatter, pass.count,
+        [&](std::uint64_t i, auto& chunk, Statistics& account) {
+            if (batch[i].deposit)
+                prepare_shifted(footprints, batch[i], splatter, chunk, account);
+        },
+        executor,
+        [&](std::uint64_t begin, std::uint64_t end) {
+            return batch.trace(light, sequence, pass.first, begin, end, trace_one, executor);
+        },
+        pass.progress);
+}
+
+} // namespace nephroid::detail

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+/// @file  What may stand after the pass in a call that splats: policies, a sequence, an executor, in any order.
+#pragma once
+
+#include "nephroid/pass/call_arguments.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/splat/splat_policies.hpp"
+
+#include <type_traits>
+#include <utility>
+
+namespace nephroid::detail {
+
+struct PoliciesKind {
+    template <class A>
+    static constexpr bool is = is_splat_policies<std::remove_cvref_t<A>>;
+};
+
+/// Splat policies, a sequence or an executor, or an error that says what is wrong.
+template <class A>
+concept MustBeSplatArgument = MustBeOneOf<A, PoliciesKind, SequenceKind, ExecutorKind>;
+
+/// At most one of each.
+template <class... Arguments>
+concept MustNotRepeat = NotRepeated<PoliciesKind, Arguments...> && NotRepeated<SequenceKind, Arguments...> &&
+    NotRepeated<ExecutorKind, Arguments...>;
+
+/// The type of the policies among the arguments.
+template <class DefaultPolicies, class... Arguments>
+using policies_among = std::remove_cvref_t<decltype(argument_of<PoliciesKind>(std::declval<const DefaultPolicies&>(),
+                                                                              std::declval<Arguments&>()...))>;
+
+/// The type of the sequence among the arguments.
+template <class... Arguments>
+using sequence_among = std::remove_cvref_t<decltype(argument_of<SequenceKind>(std::declval<const HaltonSequence&>(),
+                                                                              std::declval<Arguments&>()...))>;
+
+/// Calls use(policies, sequence, executor): each is the one among the arguments, or the default.
+template <class DefaultPolicies, class Use, class... Arguments>
+decltype(auto) with_splat_arguments(const Use& use, Arguments&... arguments) {
+    const DefaultPolicies policies{};
+    const HaltonSequence sequence{};
+    const SerialExecutor executor{};
+    return use(argument_of<PoliciesKind>(policies, arguments...), argument_of<SequenceKind>(sequence, arguments...),
+               argument_of<ExecutorKind>(executor, arguments...));
+}
+
+} // namespace nephroid::detail

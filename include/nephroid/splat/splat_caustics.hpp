@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+/// @file  The published method: photon differential splatting from the lamp to the eye path vertices
+///        [Frisvad et al. 2014]. Who includes this and not nephroid/caustics.hpp compiles no second order.
+#pragma once
+
+#include "nephroid/emission/without_tangents.hpp"
+#include "nephroid/execution/thread_executor.hpp"
+#include "nephroid/pass/photon_pass.hpp"
+#include "nephroid/pass/traced_batch.hpp"
+#include "nephroid/splat/splat_arguments.hpp"
+#include "nephroid/splat/splat_in_batches.hpp"
+#include "nephroid/transport/walk.hpp"
+
+#include <cstdint>
+#include <optional>
+
+namespace nephroid {
+
+namespace detail {
+/// Splats each photon where it lands, all with the smoothing of the pass.
+template <class S, class L, class V, class F, class R, class Policies, class Sequence, class E>
+Statistics splat_to_first_order(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
+                                const Policies& policies, const Sequence& sequence, E& executor) {
+    const auto spread = spread_of<scalar_t<V>>(pass);
+    Splatter splatter(sums, policies);
+    TracedBatch<std::optional<Deposit<V, F, tangent_count_of<L>>>> batch;
+    const auto trace_one = [&](std::uint64_t i, Statistics& account) {
+        Sampler<Sequence> sampler(sequence, pass.first + i);
+        return walk(scene, light.emit(sampler, spread), sampler, pass.limits, account);
+    };
+    return splat_in_batches(
+        splatter, pass.count,
+        [&](std::uint64_t i, auto& chunk, Statistics& account) {
+            if (const auto& deposit = batch[i])
+                splatter.prepare(*deposit, chunk, account);
+        },
+        executor,
+        [&](std::uint64_t begin, std::uint64_t end) {
+            return batch.trace(light, sequence, pass.first, begin, end, trace_one, executor);
+        },
+        pass.progress);
+}
+} // namespace detail
+
+/// Emits photons, walks them through the scene and splats them onto eye path vertices, each where it lands.
+///
+/// ```cpp
+/// const nephroid::EyePathMap map(vertices, &MyVertex::position, &MyVertex::normal);
+/// auto sums = nephroid::sums<float>(map);
+/// nephroid::splat_caustics(scene, light, sums, {.count = 100'000}, threads);
+/// ```
+///
+/// @param scene      the renderer's: rays and surfaces (transport/scene.hpp); used from several threads
+/// @param light      one light, or a LightSet of several (emission/light/); WithoutTangents for policies that use no
+///                   differentials (FixedFootprint)
+/// @param sums       what is added to (receiver/sums.hpp)
+/// @param pass       which photons, how many in all, how smooth
+/// @param arguments  in any order, none needed: splat policies to first order (`Published` unless told); a sequence,
+///                   where photon i's numbers come from (`HaltonSequence`); an executor, who runs the work, called to
+///                   trace and to splat each batch (`SerialExecutor`). The sums do not depend on the executor, bit for
+///                   bit
+/// @return  what became of the flux, and counts
+/// Throws std::invalid_argument for zero photons and a smoothing that is not positive. Memory: the sums and one batch,
+/// whatever the number of photons.
+template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
+    requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
+                 detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>>)
+Statistics splat_caustics(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
+                          Arguments&&... arguments) {
+    using Policies = detail::policies_among<Published, Arguments...>;
+    static_assert(!decltype(Policies::order)::uses_neighbours,
+                  "nephroid: splat_caustics splats to first order; call nephroid::caustics (nephroid/caustics.hpp) for "
+                  "SecondOrder");
+    detail::check(pass, "nephroid::splat_caustics");
+    return detail::with_splat_arguments<Published>(
+        [&](const auto& policies, const auto& sequence, auto& executor) {
+            return detail::splat_to_first_order(scene, light, sums, pass, policies, sequence, executor);
+        },
+        arguments...);
+}
+
+} // namespace nephroid
