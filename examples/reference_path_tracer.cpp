@@ -2,7 +2,7 @@
 /// @file  Path traces a built-in case whose light has area: a picture to compare others with, and how sure it is.
 #include "common/command_line.hpp"
 #include "common/image/write.hpp"
-#include "common/path_tracer.hpp"
+#include "common/path_tracer/path_tracer.hpp"
 #include "common/stopwatch.hpp"
 #include "common/text.hpp"
 

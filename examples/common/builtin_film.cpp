@@ -113,6 +113,10 @@ double ghost_margin(const BuiltinFilm& film, double smoothing, double emitted) {
     return 1.01 * wave_stretch(amplitude_of(film.scene)) * radius + 2 * film.pixel();
 }
 
+bool has_exact_picture(const std::string& scene) {
+    return is_builtin(scene) && scene != "ring-disk" && scene != "ring-disk-zoom";
+}
+
 std::optional<std::vector<double>> exact_picture(const BuiltinFilm& film, unsigned threads) {
     ThreadExecutor executor(threads);
     const auto& [x_min, x_max, y_min, y_max] = film.view;

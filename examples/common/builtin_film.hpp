@@ -60,6 +60,9 @@ struct FloorVertex {
 /// can have among so many emitted photons, and two pixels.
 [[nodiscard]] double ghost_margin(const BuiltinFilm& film, double smoothing, double emitted);
 
+/// Whether the exact irradiance is known.
+[[nodiscard]] bool has_exact_picture(const std::string& scene);
+
 /// The exact irradiance, pixel by pixel, row 0 at the bottom; nothing for a case whose answer is not known exactly.
 [[nodiscard]] std::optional<std::vector<double>> exact_picture(const BuiltinFilm& film, unsigned threads);
 

@@ -1,13 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file  Caustics in a renderer on Embree 3 or 4: a glass ball as a triangle mesh with interpolated normals, or as
 ///        user geometry (`embree picture.pfm user`).
+#include "embree_rays.hpp"
 #include "picture.hpp"
-
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 
 #include <array>
 #include <cmath>
@@ -61,16 +56,7 @@ public:
     }
 
     void add_mesh(const Mesh& mesh, float refractive_index) {
-        const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* const p = static_cast<float*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), mesh.positions.size()));
-        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
-            p[3 * i] = mesh.positions[i].x, p[3 * i + 1] = mesh.positions[i].y, p[3 * i + 2] = mesh.positions[i].z;
-        auto* const t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh.triangles.size()));
-        for (std::size_t i = 0; i < 3 * mesh.triangles.size(); ++i)
-            t[i] = mesh.triangles[i / 3][i % 3];
-        attach(geometry, {mesh, {{0, 0, 0}, 0}, refractive_index});
+        attach(triangle_geometry(device_, mesh.positions, mesh.triangles), {mesh, {{0, 0, 0}, 0}, refractive_index});
     }
 
     /// The ball is not copied.
@@ -89,19 +75,7 @@ public:
 
     /// The hit's geomID is RTC_INVALID_GEOMETRY_ID where there is none.
     [[nodiscard]] RTCRayHit trace(const Vec3fa& o, const Vec3fa& d, float t_min, float t_max) const {
-        RTCRayHit r{};
-        r.ray.org_x = o.x, r.ray.org_y = o.y, r.ray.org_z = o.z, r.ray.tnear = t_min;
-        r.ray.dir_x = d.x, r.ray.dir_y = d.y, r.ray.dir_z = d.z, r.ray.tfar = t_max;
-        r.ray.mask = ~0u;
-        r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-        rtcIntersect1(scene_, &r, nullptr);
-#else
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        rtcIntersect1(scene_, &context, &r);
-#endif
-        return r;
+        return nearest_hit(scene_, o, d, t_min, t_max);
     }
 
 private:

@@ -3,6 +3,7 @@
 // reference are fifteen times as many photons, splatted plainly, with footprints half as wide as are best for the few.
 #include "common/builtin_cases.hpp"
 #include "support/is_sanitized.hpp"
+#include "support/vertex.hpp"
 
 #include "nephroid/caustics.hpp"
 #include "nephroid/quality/error.hpp"
@@ -32,16 +33,14 @@ constexpr std::uint64_t emitted = 87'000; // some 20,000 arrive
 template <class Policies = Default, class Sequence>
 [[nodiscard]] std::vector<float> picture_of(const Sequence& sequence, std::uint64_t photons,
                                             std::optional<double> smoothing = {}) {
-    struct Pixel {
-        Vec position;
-    };
+    using Pixel = tests::Vertex<Vec>;
     const auto scene = builtin_case<float, float>("ring-disk-zoom", false).value();
     const FilmRectangle& film = scene.film;
     std::vector<Pixel> pixels;
     for (std::size_t i = 0; i < size * size; ++i)
         pixels.push_back({Vec(film.x_min + (film.x_max - film.x_min) * (double(i % size) + 0.5) / size,
                               film.y_min + (film.y_max - film.y_min) * (double(i / size) + 0.5) / size, 0)});
-    const EyePathMap<Vec> map(pixels, &Pixel::position, [](const Pixel&) { return Vec(0, 0, 1); });
+    const EyePathMap<Vec> map(pixels, &Pixel::position, &Pixel::normal);
     auto sums = nephroid::sums<float>(map);
     const Statistics account = nephroid::caustics(
         scene.scene, scene.light, sums,

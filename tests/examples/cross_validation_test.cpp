@@ -7,6 +7,7 @@
 #include "nephroid/quality/reference/ring.hpp"
 #include "nephroid/quality/reference/wave.hpp"
 #include "support/is_sanitized.hpp"
+#include "support/vertex.hpp"
 
 #include "nephroid/caustics.hpp"
 #include "nephroid/quality/error.hpp"
@@ -62,9 +63,7 @@ struct Subject {
             reference::ring({}, reference_film(builtin.film))};
 }
 
-struct Pixel {
-    Vec position;
-};
+using Pixel = tests::Vertex<Vec>;
 
 /// What comes of the smoothing chosen, beside the best of a sweep by steps of 2^(1/4).
 struct Outcome {
@@ -80,7 +79,7 @@ template <class Sequence>
     for (std::size_t i = 0; i < size * size; ++i)
         pixels.push_back({{float(f.x_min + (f.x_max - f.x_min) * (double(i % size) + 0.5) / size),
                            float(f.y_min + (f.y_max - f.y_min) * (double(i / size) + 0.5) / size), 0.f}});
-    const EyePathMap<Vec> map(pixels, &Pixel::position, [](const Pixel&) { return Vec(0, 0, 1); });
+    const EyePathMap<Vec> map(pixels, &Pixel::position, &Pixel::normal);
     auto sums = nephroid::sums<float>(map);
     const auto error_at = [&](double s) {
         sums.clear();

@@ -3,6 +3,7 @@
 // exact cases, footprints from far below a pixel to half the film.
 #include "common/builtin_cases.hpp"
 #include "support/is_sanitized.hpp"
+#include "support/vertex.hpp"
 
 #include "nephroid/caustics.hpp"
 #include "nephroid/sequence/halton.hpp"
@@ -24,9 +25,7 @@ namespace {
 
 using Vec = glm::vec3;
 
-struct Pixel {
-    Vec position;
-};
+using Pixel = tests::Vertex<Vec>;
 
 struct Energy {
     double flux = 0;    ///< of the photons whose footprints lie on the film whole
@@ -43,7 +42,7 @@ struct Energy {
     for (std::size_t i = 0; i < size * size; ++i)
         pixels.push_back({{float(film.x_min + (double(i % size) + 0.5) * dx),
                            float(film.y_min + (double(i / size) + 0.5) * dy), 0.f}});
-    const EyePathMap map(pixels, &Pixel::position, [](const Pixel&) { return Vec(0, 0, 1); });
+    const EyePathMap map(pixels, &Pixel::position, &Pixel::normal);
     const Default policies{.filter = {filter}};
     auto sums = nephroid::sums<float>(map);
     detail::Splatter splatter(sums, policies);

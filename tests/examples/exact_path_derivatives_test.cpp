@@ -7,7 +7,7 @@
 #include "common/shapes/flat.hpp"
 #include "common/shapes/sphere.hpp"
 #include "common/shapes/wave.hpp"
-#include "numerics/arithmetic.hpp"
+#include "common/numerics/arithmetic.hpp"
 #include "smoothing/second_order/emission_differences.hpp"
 
 #include "nephroid/emission/light/directional.hpp"

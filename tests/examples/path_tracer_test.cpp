@@ -3,7 +3,7 @@
 // closed forms under a uniform sky.
 #include "quality/reference/compare.hpp" // before the library's `dot`, which its own would not be looked for behind
 
-#include "common/path_tracer.hpp"
+#include "common/path_tracer/path_tracer.hpp"
 #include "nephroid/quality/reference/ball.hpp"
 #include "nephroid/quality/reference/fresnel.hpp"
 #include "nephroid/quality/reference/quadrature.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file  Tangents that outgrow their scalar are bounded and counted, and photons whose ray lies in a surface to
 ///        rounding end and are counted: there is never infinity or NaN.
+#include "support/vertex.hpp"
+
 #include "nephroid/splat/splat.hpp"
 #include "nephroid/vector/glm.hpp"
 
@@ -52,9 +54,7 @@ Photon<Vec<T>, T> downwards(T z) {
 }
 
 template <class T>
-struct Vertex {
-    Vec<T> position, normal;
-};
+using Vertex = tests::Vertex<Vec<T>>;
 
 /// A lattice on the floor.
 template <class T>

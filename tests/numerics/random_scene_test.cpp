@@ -5,6 +5,7 @@
 
 #include "common/scene.hpp"
 #include "support/space.hpp"
+#include "support/vertex.hpp"
 
 #include "nephroid/caustics.hpp"
 #include "nephroid/emission/light/standard_lights.hpp"
@@ -183,9 +184,7 @@ public:
     }
 
     /// Vertices on the floor as a camera might see them.
-    struct Vertex {
-        Vec<T> position, normal;
-    };
+    using Vertex = tests::Vertex<Vec<T>>;
     [[nodiscard]] std::vector<Vertex> vertices() {
         std::vector<Vertex> seen;
         for (int i = 0; i < 256; ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file  A spawned ray starts on the side of the surface that it leaves to, by the exact equation of the surface and
 ///        at any scale: on the shapes of the examples, and in a tracer of its own that knows no double and no shape.
-#include "numerics/arithmetic.hpp"
+#include "common/numerics/arithmetic.hpp"
 
 #include "nephroid/transport/walk.hpp"
 #include "nephroid/vector/glm.hpp"
@@ -20,8 +20,7 @@
 namespace {
 
 using namespace nephroid;
-using namespace nephroid::tests;
-using namespace nephroid::tests::numerics;
+using namespace nephroid::examples::numerics;
 
 template <class T>
 using Vec = glm::vec<3, T>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file  The library's tangents against differences in wide precision, group by group of hard cases.
 ///        `examples/numerics` prints the table.
-#include "numerics/group_table.hpp"
+#include "common/numerics/group_table.hpp"
 
 #include "nephroid/footprint/policies.hpp"
 
@@ -14,8 +14,7 @@
 namespace {
 
 using namespace nephroid;
-using namespace nephroid::tests;
-using namespace nephroid::tests::numerics;
+using namespace nephroid::examples::numerics;
 
 constexpr bool has_quadruple = Wide::digits >= 113;
 constexpr std::size_t cases_per_group = 250;

@@ -3,6 +3,7 @@
 #include "nephroid/splat/splat_photons.hpp"
 
 #include "support/space.hpp"
+#include "support/vertex.hpp"
 
 #include "nephroid/vector/glm.hpp"
 
@@ -19,9 +20,7 @@ namespace {
 
 using Vec = glm::vec3;
 
-struct Vertex {
-    Vec position, normal{0, 0, 1};
-};
+using Vertex = tests::Vertex<Vec>;
 
 /// A uniform kernel that counts how often it is asked.
 struct CountingKernel {

@@ -3,6 +3,8 @@
 ///        Shares no formula with the library.
 #pragma once
 
+#include "support/vertex.hpp"
+
 #include "nephroid/transport/walk.hpp"
 
 #include "nephroid/vector/glm.hpp"
@@ -13,12 +15,6 @@
 #include <vector>
 
 namespace nephroid::tests {
-
-/// A renderer's own eye path vertex.
-template <class V>
-struct Vertex {
-    V position, normal;
-};
 
 /// columns x rows vertices with this spacing: corner + i spacing u + j spacing v.
 template <class T>

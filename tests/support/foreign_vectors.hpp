@@ -2,7 +2,7 @@
 /// @file  Vector types as renderers have them, one for each convention, and their traits.
 #pragma once
 
-#include "support/wide.hpp"
+#include "support/space.hpp"
 
 #include "nephroid/vector/glm.hpp"
 #include "nephroid/vector/traits.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/vector/scalar.hpp"
 
-#include "support/wide.hpp"
+#include "support/space.hpp"
 
 #include <doctest/doctest.h>
 

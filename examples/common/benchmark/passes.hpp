@@ -8,7 +8,7 @@
 #include "common/benchmark/table.hpp"
 #include "common/builtin_cases.hpp"
 #include "common/builtin_film.hpp"
-#include "common/compare/memory.hpp"
+#include "common/memory.hpp"
 #include "common/stopwatch.hpp"
 
 #include "nephroid/caustics.hpp"

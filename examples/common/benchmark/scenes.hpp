@@ -9,11 +9,7 @@
 #include "nephroid/vector/in_place.hpp"
 
 #if defined(NEPHROID_EXAMPLES_HAS_EMBREE)
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "drop_in/embree_rays.hpp"
 #endif
 
 #include <cmath>
@@ -62,16 +58,7 @@ namespace nephroid::examples::benchmarks {
 class EmbreeMesh {
 public:
     explicit EmbreeMesh(const MeshData<float>& data) : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-        const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-        auto* const p = static_cast<float*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), data.positions.size()));
-        for (std::size_t i = 0; i < data.positions.size(); ++i)
-            for (int axis = 0; axis < 3; ++axis)
-                p[3 * i + std::size_t(axis)] = data.positions[i][axis];
-        auto* const t = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-            geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), data.triangles.size()));
-        for (std::size_t i = 0; i < 3 * data.triangles.size(); ++i)
-            t[i] = data.triangles[i / 3][i % 3];
+        const RTCGeometry geometry = triangle_geometry(device_, data.positions, data.triangles);
         rtcCommitGeometry(geometry);
         rtcAttachGeometry(scene_, geometry);
         rtcReleaseGeometry(geometry);
@@ -86,24 +73,7 @@ public:
 
     /// @param coherent  tells Embree that rays come in an order
     [[nodiscard]] std::optional<Candidate<float>> nearest(const Ray<float>& ray, bool coherent = false) const {
-        RTCRayHit r;
-        r.ray.org_x = ray.origin.x, r.ray.org_y = ray.origin.y, r.ray.org_z = ray.origin.z, r.ray.tnear = ray.t_min;
-        r.ray.dir_x = ray.direction.x, r.ray.dir_y = ray.direction.y, r.ray.dir_z = ray.direction.z;
-        r.ray.tfar = ray.t_max, r.ray.time = 0, r.ray.mask = ~0u, r.ray.flags = 0;
-        r.hit.geomID = r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-#if RTC_VERSION_MAJOR >= 4
-        RTCIntersectArguments arguments;
-        rtcInitIntersectArguments(&arguments);
-        if (coherent)
-            arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-        rtcIntersect1(scene_, &r, &arguments);
-#else
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
-        if (coherent)
-            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-        rtcIntersect1(scene_, &context, &r);
-#endif
+        const RTCRayHit r = nearest_hit(scene_, ray.origin, ray.direction, ray.t_min, ray.t_max, coherent);
         if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
             return std::nullopt;
         return Candidate<float>{r.ray.tfar, r.hit.u, r.hit.v, r.hit.primID};

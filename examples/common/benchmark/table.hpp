@@ -2,10 +2,14 @@
 /// @file  The table of ratios that `benchmark` prints.
 #pragma once
 
-#include <array>
+#include "common/table.hpp"
+#include "common/text.hpp"
+
 #include <cmath>
-#include <cstdio>
+#include <cstddef>
+#include <iostream>
 #include <string>
+#include <vector>
 
 namespace nephroid::examples::benchmarks {
 
@@ -18,9 +22,9 @@ struct Bar {
     [[nodiscard]] static Bar at_most(double value) { return {Kind::at_most, value}; }
 
     [[nodiscard]] std::string text() const {
-        std::array<char, 32> text{};
-        std::snprintf(text.data(), text.size(), kind == Kind::at_least ? ">= %.4g" : "<= %.4g", value);
-        return kind == Kind::none ? "" : text.data();
+        if (kind == Kind::none)
+            return "";
+        return examples::text(kind == Kind::at_least ? ">= %.4g" : "<= %.4g", value);
     }
     /// "met", "missed", or nothing where there is no bar.
     [[nodiscard]] const char* verdict(double ratio) const {
@@ -30,22 +34,23 @@ struct Bar {
     }
 };
 
+/// Prints a row at once: measuring the next one takes a while.
+inline void print_cells(const TableRow& cells) {
+    static const std::vector<std::size_t> widths = {58, 12, 30, 8, 8, 6};
+    std::cout << markdown_row(cells, widths) << std::flush;
+}
+
 inline void print_heading() {
-    std::printf("| %-58s | %12s | %-30s | %8s | %8s | %-6s |\n", "what", "measured", "yardstick", "ratio", "bar", "");
-    std::printf("| --- | ---: | --- | ---: | --- | --- |\n");
+    print_cells({"what", "measured", "yardstick", "ratio", "bar", ""});
+    print_cells({"---", "---:", "---", "---:", "---", "---"});
 }
 
 /// One row: what was measured, as a figure with its unit, and as a ratio to its yardstick. A ratio that is not a number
 /// is left blank.
 inline void print_row(const std::string& what, double figure, const char* unit, const char* yardstick, double ratio,
                       Bar bar = {}) {
-    std::array<char, 32> measured{}, times{};
-    std::snprintf(measured.data(), measured.size(), "%.4g %s", figure, unit);
-    if (std::isfinite(ratio))
-        std::snprintf(times.data(), times.size(), "%.3g", ratio);
-    std::printf("| %-58s | %12s | %-30s | %8s | %8s | %-6s |\n", what.c_str(), measured.data(), yardstick, times.data(),
-                bar.text().c_str(), bar.verdict(ratio));
-    std::fflush(stdout);
+    print_cells({what, text("%.4g %s", figure, unit), yardstick, std::isfinite(ratio) ? text("%.3g", ratio) : "",
+                 bar.text(), bar.verdict(ratio)});
 }
 
 } // namespace nephroid::examples::benchmarks

@@ -4,6 +4,7 @@
 #include "smoothing/second_order/maps.hpp"
 #include "support/glass_ball.hpp"
 #include "support/space.hpp"
+#include "support/vertex.hpp"
 
 #include "nephroid/caustics.hpp"
 #include "nephroid/emission/light/directional.hpp"
@@ -186,13 +187,10 @@ TEST_CASE("curved footprints: any number of threads renders the same picture bit
 
 // A photon whose one piece lies off the map: what is seen and what is not add up to it.
 TEST_CASE("curved footprints: pieces that nobody sees are booked as unseen") {
-    struct Vertex {
-        D position;
-    };
-    std::vector<Vertex> vertices;
+    std::vector<tests::Vertex<D>> vertices;
     for (int i = 0; i < 100; ++i)
         vertices.push_back({D(0.1 * (i % 10), 0.1 * (i / 10), 0)});
-    const EyePathMap<D> map(vertices, &Vertex::position, [](const Vertex&) { return D(0, 0, 1); });
+    const EyePathMap<D> map(vertices, &tests::Vertex<D>::position, &tests::Vertex<D>::normal);
     auto sums = nephroid::sums<double>(map);
     const detail::Splatter splatter(sums, Published{});
     std::vector<Whole> pieces{deposit_of({0.05, 0, 0}, {0, 0.05, 0}), deposit_of({0.05, 0, 0}, {0, 0.05, 0})};

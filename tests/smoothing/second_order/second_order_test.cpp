@@ -3,6 +3,7 @@
 
 #include "smoothing/second_order/maps.hpp"
 #include "support/space.hpp"
+#include "support/vertex.hpp"
 
 #include "nephroid/splat/splat_photons.hpp"
 
@@ -45,9 +46,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
     return sum;
 }
 
-struct Vertex {
-    D position;
-};
+using Vertex = tests::Vertex<D>;
 
 // ---- the bias of one axis: F(u) = u + 0.9 u², so that F'' / F' is 1.8 at u = 0; nothing happens along v.
 
@@ -71,7 +70,7 @@ template <class Order>
         vertices.push_back({landing.position});
         exact.push_back(1 / landing.d_u.x);
     }
-    const EyePathMap<D> map(vertices, &Vertex::position, [](const Vertex&) { return D(0, 0, 1); });
+    const EyePathMap<D> map(vertices, &Vertex::position, &Vertex::normal);
     const auto policies = Published{.excess = {.diagonals = 100}}.with_filter(NoPixelFilter{});
     auto sums = nephroid::sums<double>(map);
     detail::Splatter splatter(sums, policies);
@@ -145,7 +144,7 @@ TEST_CASE("second order: where footprints narrow towards a border the light stay
     std::vector<Vertex> vertices;
     for (double d = 16; d <= 24; d += 0.5)
         vertices.push_back({D(d * unit_of(photons), 0.5, 0)});
-    const EyePathMap<D> map(vertices, &Vertex::position, [](const Vertex&) { return D(0, 0, 1); });
+    const EyePathMap<D> map(vertices, &Vertex::position, &Vertex::normal);
     const auto policies = Published{.excess = {.diagonals = 100}}.with_filter(NoPixelFilter{});
     const auto mean = [&](bool shifted) {
         auto sums = nephroid::sums<double>(map);

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+/// @file  Measures what is claimed, against the truth: `study compare`, `study smoothing`, `study relax`. Each prints
+///        tables, and leaves figures, plots, pictures and a page with all of them in a folder.
+#include "common/study/compare/command.hpp"
+#include "common/study/relax/command.hpp"
+#include "common/study/smoothing/command.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <exception>
+#include <iostream>
+#include <string>
+
+namespace {
+
+/// The command line as it was typed, but for the program's folder.
+[[nodiscard]] std::string command_line(int argc, const char* const* argv) {
+    std::string command = "study";
+    for (int i = 1; i < argc; ++i)
+        command += " " + std::string(argv[i]);
+    return command;
+}
+
+void run(int argc, const char* const* argv) {
+    using namespace nephroid::examples;
+    CLI::App app("Measures nephroid against the truth and its rivals", "study");
+    app.require_subcommand(1);
+    CLI::App& compare_app =
+        *app.add_subcommand("compare", "Splatting and its rivals: error against bandwidth, photons and time");
+    CLI::App& smoothing_app =
+        *app.add_subcommand("smoothing", "Footprints chosen photon by photon, against the best smoothing for all");
+    CLI::App& relax_app = *app.add_subcommand("relax", "A photon map relaxed into blue noise: before and after");
+    const study::compare::Command compare(compare_app);
+    const study::smoothing::Command smoothing(smoothing_app);
+    const study::relax::Command relax(relax_app);
+    if (!parse(app, argc, argv))
+        return;
+    const std::string command = command_line(argc, argv);
+    if (compare_app.parsed())
+        compare.run(command);
+    if (smoothing_app.parsed())
+        smoothing.run(command);
+    if (relax_app.parsed())
+        relax.run(command);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    try {
+        run(argc, argv);
+        return 0;
+    } catch (const nephroid::examples::UsageError& error) {
+        std::cerr << "study: " << error.what() << '\n';
+        return 2;
+    } catch (const std::exception& error) {
+        std::cerr << "study: " << error.what() << '\n';
+        return 1;
+    }
+}
