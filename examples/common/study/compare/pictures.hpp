@@ -30,9 +30,9 @@ void write_pictures(const std::filesystem::path& folder, const Bench& bench, con
 [[nodiscard]] std::filesystem::path picture_path(const std::filesystem::path& folder, const Trial& trial,
                                                  Measure measure);
 
-/// Writes crops of all methods side by side, the reference first, for every sequence, by RMSE and by SSIM: of the trials
-/// at the target count, which must still have their pictures. And each strip as one picture, strip-SEQUENCE-MEASURE.png:
-/// the reference and the methods, below them their differences.
+/// Writes crops of all methods side by side, the reference first, for every sequence, by RMSE and by SSIM: of the
+/// trials at the target count, which must still have their pictures. And each strip as one picture: the reference and
+/// the methods, below them their differences; strip-SEQUENCE-MEASURE.png.
 [[nodiscard]] std::vector<Strip> write_strips(const std::filesystem::path& folder, const Options& options,
                                               const Bench& bench, const std::vector<Trial>& trials);
 

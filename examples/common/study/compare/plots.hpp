@@ -8,8 +8,8 @@
 namespace nephroid::examples::study::compare {
 
 /// For each sequence and measure: error against time (the headline, "time-…"), against photons with fitted slopes if
-/// there are several counts ("photons-…"), against bandwidth for the smallest count ("bandwidth-…"). Lines are named
-/// by the methods' ids.
+/// there are several counts ("photons-…"), against bandwidth for the smallest count ("bandwidth-…"). Lines have the
+/// names of the methods' ids.
 [[nodiscard]] std::vector<Drawing> drawings(const Options& options, const std::vector<Trial>& trials);
 
 } // namespace nephroid::examples::study::compare

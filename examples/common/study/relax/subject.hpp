@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What `study relax` relaxes and looks at: photons, where the picture sees them, and what is known of the truth.
+/// @file  What `study relax` relaxes and looks at: photons, where the picture sees them, what is known of the truth.
 #pragma once
 
 #include "common/builtin_film.hpp"
