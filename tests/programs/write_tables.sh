@@ -19,23 +19,23 @@ between
 after
 PAGE
 cp page.md original.md
-"$write_tables" page.md one 2>/dev/null || fail "one table"
+"$write_tables" --file page.md one 2>/dev/null || fail "one table"
 [ "$(sed -n '3,5p' page.md | tr '\n' ' ')" = "| a | | --- | | 1 | " ] || fail "$(cat page.md)"
 grep -q "^Revision .* cores, [0-9]* s\.$" page.md || fail "no stamp: $(cat page.md)"
 ! grep -q "^old$" page.md || fail "what was there has stayed"
 [ "$(grep -c "^between$\|^after$\|^# A page$" page.md)" -eq 3 ] || fail "the rest of the page has changed"
 cp page.md once.md
-"$write_tables" page.md one 2>/dev/null
+"$write_tables" --file page.md one 2>/dev/null
 sed 's/, [0-9]* s\.$//' page.md >a.txt
 sed 's/, [0-9]* s\.$//' once.md >b.txt
 cmp a.txt b.txt || fail "a second time gives another page"
 
-"$write_tables" page.md '*-quick' 2>where.txt || fail "a pattern"
+"$write_tables" --file page.md '*-quick' 2>where.txt || fail "a pattern"
 grep -q "^| b |$" page.md || fail "the pattern's table is missing"
 [ "$(head -n 1 where.txt)" != "$(pwd)" ] || fail "the command ran in this folder"
-[ "$("$write_tables" --list --within 100 page.md | cut -d: -f1 | tr '\n' ' ')" = "one two-quick " ] ||
-    fail "--within: $("$write_tables" --list --within 100 page.md)"
-[ "$("$write_tables" --list --stale original.md | wc -l)" -eq 3 ] || fail "tables that were never made are not stale"
+[ "$("$write_tables" --list --within 100 --file page.md | cut -d: -f1 | tr '\n' ' ')" = "one two-quick " ] ||
+    fail "--within: $("$write_tables" --list --within 100 --file page.md)"
+[ "$("$write_tables" --list --stale --file original.md | wc -l)" -eq 3 ] || fail "tables that were never made are not stale"
 
 refuses() { # words in the message, arguments
     words=$1
@@ -46,12 +46,12 @@ refuses() { # words in the message, arguments
     grep -q -- "$words" errors.txt || fail "no '$words' for $*: $(cat errors.txt)"
 }
 cp page.md before.md
-refuses "prints no table" page.md three
+refuses "prints no table" --file page.md three
 cmp page.md before.md || fail "a command that fails has changed the page"
-refuses "no such table" page.md four
-refuses "there is no" nowhere.md
-refuses "name a Markdown" --stale
-refuses "no option" --soon page.md
-refuses "whole number" --within soon page.md
+refuses "no such table" --file page.md four
+refuses "there is no" --file nowhere.md
+refuses "which page" --file
+refuses "no option" --soon
+refuses "whole number" --within soon --file page.md
 echo "<!-- table open: true -->" >open.md
-refuses "no line" open.md
+refuses "no line" --file open.md
