@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <ostream>
+#include <sstream>
 
 namespace nephroid::examples {
 
@@ -38,6 +39,21 @@ namespace {
     return line + "\n";
 }
 
+/// Words in lines of at most so many letters.
+[[nodiscard]] std::string wrapped(const std::string& text, std::size_t most) {
+    std::istringstream words(text);
+    std::string lines;
+    std::size_t width = 0;
+    for (std::string word; words >> word;) {
+        const std::size_t needed = width_of(word);
+        if (!lines.empty())
+            lines += width + 1 + needed > most ? '\n' : ' ';
+        width = lines.empty() || lines.back() == '\n' ? needed : width + 1 + needed;
+        lines += word;
+    }
+    return lines;
+}
+
 } // namespace
 
 std::string markdown_row(const TableRow& row, const std::vector<std::size_t>& widths) {
@@ -48,7 +64,8 @@ std::string markdown_row(const TableRow& row, const std::vector<std::size_t>& wi
 }
 
 void print(std::ostream& out, const Table& table, TableFormat format) {
-    out << '\n' << table.title << ". " << table.caption << ".\n";
+    const std::string words = table.title + ". " + table.caption + ".";
+    out << '\n' << wrapped(words, 120) << '\n';
     if (format == TableFormat::markdown) {
         out << '\n' << markdown_row(table.header) << markdown_row(TableRow(table.header.size(), "---"));
         for (const TableRow& row : table.rows)

@@ -4,7 +4,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <sstream>
+#include <string>
 
 using namespace nephroid::examples;
 
@@ -34,6 +36,21 @@ TEST_CASE("table: Markdown has a line under its header") {
                                             "| épée | 1 |\n"
                                             "| a < b | 12.5 |\n");
     CHECK(markdown_row({"é", "b"}, {3, 1}) == "| é   | b |\n");
+}
+
+TEST_CASE("table: long captions are wrapped") {
+    Table wordy = table;
+    wordy.caption.clear();
+    for (int i = 0; i < 60; ++i)
+        wordy.caption += "word ";
+    std::ostringstream out;
+    print(out, wordy, TableFormat::markdown);
+    std::istringstream lines(out.str());
+    std::size_t longest = 0;
+    for (std::string line; std::getline(lines, line);)
+        longest = (std::max)(longest, line.size());
+    CHECK(longest > 110);
+    CHECK(longest <= 120);
 }
 
 TEST_CASE("table: HTML reads nothing in a cell as markup") {

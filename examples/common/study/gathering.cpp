@@ -2,6 +2,7 @@
 #include "common/study/gathering.hpp"
 
 #include "common/stopwatch.hpp"
+#include "common/study/bench.hpp"
 
 #include "nephroid/gather/differential_map.hpp"
 #include "nephroid/gather/diffusion.hpp"

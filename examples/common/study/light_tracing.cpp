@@ -2,6 +2,7 @@
 #include "common/study/light_tracing.hpp"
 
 #include "common/stopwatch.hpp"
+#include "common/study/bench.hpp"
 
 namespace nephroid::examples::study {
 

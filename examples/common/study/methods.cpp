@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/study/methods.hpp"
 
+#include "common/study/bench.hpp"
 #include "common/study/gathering.hpp"
 #include "common/study/light_tracing.hpp"
 #include "common/study/splatting.hpp"

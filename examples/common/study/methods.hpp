@@ -2,12 +2,13 @@
 /// @file  The methods that are compared: each turns photons and a bandwidth into a picture of irradiance.
 #pragma once
 
-#include "common/study/bench.hpp"
-
 #include <string>
 #include <vector>
 
 namespace nephroid::examples::study {
+
+class Bench;
+struct Photons;
 
 /// Wall clock, by stage.
 struct Seconds {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/study/records.hpp"
 
+#include "common/study/bench.hpp"
 #include "common/text.hpp"
 
 #include <algorithm>

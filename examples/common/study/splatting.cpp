@@ -2,6 +2,7 @@
 #include "common/study/splatting.hpp"
 
 #include "common/stopwatch.hpp"
+#include "common/study/bench.hpp"
 
 #include "nephroid/caustics.hpp"
 #include "nephroid/gather/progressive.hpp"

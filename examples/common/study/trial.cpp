@@ -2,6 +2,7 @@
 #include "common/study/trial.hpp"
 
 #include "common/memory.hpp"
+#include "common/study/bench.hpp"
 #include "common/text.hpp"
 
 #include <algorithm>

@@ -2,7 +2,9 @@
 /// @file  One method on some photons: its bandwidth swept, and measured and timed where it is best.
 #pragma once
 
+#include "common/errors.hpp"
 #include "common/study/methods.hpp"
+#include "common/study/options.hpp"
 #include "common/study/sweep.hpp"
 
 #include <functional>

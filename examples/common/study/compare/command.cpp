@@ -3,6 +3,7 @@
 
 #include "common/builtin_film.hpp"
 #include "common/image/png.hpp"
+#include "common/study/bench.hpp"
 #include "common/study/compare/page.hpp"
 #include "common/study/compare/pictures.hpp"
 #include "common/study/compare/plots.hpp"

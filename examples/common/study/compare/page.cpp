@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/study/compare/page.hpp"
 
+#include "common/study/bench.hpp"
 #include "common/study/compare/pictures.hpp"
 #include "common/text.hpp"
 

@@ -2,6 +2,7 @@
 #include "common/study/compare/pictures.hpp"
 
 #include "common/image/png.hpp"
+#include "common/study/bench.hpp"
 #include "common/text.hpp"
 
 #include "nephroid/quality/exposure.hpp"

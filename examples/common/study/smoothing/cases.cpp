@@ -2,6 +2,7 @@
 #include "common/study/smoothing/cases.hpp"
 
 #include "common/command_line.hpp"
+#include "common/study/bench.hpp"
 
 namespace nephroid::examples::study::smoothing {
 
