@@ -81,7 +81,7 @@ says_only_progress
 # As Markdown the chosen tables, and nothing else.
 "$study" compare wave-prefocal --photons 1000 --size 32 --sequence halton --methods splat,light-tracing --output out \
     --markdown --table best-rel >table.md 2>errors.txt || fail "Markdown: $(cat errors.txt)"
-[ "$(grep -c '^|' table.md)" -eq 4 ] && [ "$(grep -c '^[^|]' table.md)" -eq 1 ] || fail "not one table: $(cat table.md)"
+[ "$(grep -c '^|' table.md)" -eq 4 ] && ! grep -q "^Equal\|^results" table.md || fail "not one table: $(cat table.md)"
 grep -q "nothing to choose" table.md || fail "light tracing has a bandwidth: $(cat table.md)"
 
 # A reference of the user's own: the exact picture's stand-in, with a standard error.

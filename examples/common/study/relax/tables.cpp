@@ -38,7 +38,7 @@ struct Row {
         cells.push_back(text("%+.2f%%", 100 * errors.energy));
     }
     for (const double width : row.look->edge_widths)
-        cells.push_back(text("%.5f", width));
+        cells.push_back(std::isfinite(width) ? text("%.5f", width) : "–");
     return cells;
 }
 
