@@ -119,4 +119,13 @@ refuses 2 "no-such-option" ring --no-such-option
 refuses 1 "no-such.pfm" ring --reference no-such.pfm
 refuses 1 "32 x 32" ring --size 64 --reference mean.pfm
 refuses 1 "no light" ring --view 50 51 50 51 --size 16
-refuses 1 "no-such-folder" ring --html no-such-folder/report.html
+status=0
+"$study" compare ring --photons 1000 --size 16 --output mean.pfm/x >/dev/null 2>errors.txt || status=$?
+[ $status -eq 1 ] && grep -q "mean.pfm" errors.txt || fail "wrote into a file: $(cat errors.txt)"
+status=0
+"$study" >out.txt 2>errors.txt || status=$?
+[ $status -eq 2 ] && [ "$(wc -l <errors.txt)" -eq 1 ] || fail "no question: $(cat errors.txt)"
+for question in compare smoothing relax; do
+    "$study" --help | grep -q "$question" || fail "--help does not name $question"
+    "$study" $question --help | grep -q -- "--output" || fail "$question --help does not list its options"
+done

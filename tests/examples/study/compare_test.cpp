@@ -2,6 +2,7 @@
 // `study compare` from within: finding a bandwidth, what is needed for an equal error, methods that agree.
 #include "common/image/pfm.hpp"
 #include "common/image/png.hpp"
+#include "common/study/bench.hpp"
 #include "common/study/compare/command.hpp"
 #include "common/study/compare/page.hpp"
 #include "common/study/compare/pictures.hpp"
