@@ -6,7 +6,7 @@
 #include "common/study/report.hpp"
 #include "common/study/smoothing/tables.hpp"
 
-#include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/pass/photon_pass.hpp"
 
 #include <CLI/CLI.hpp>
 
