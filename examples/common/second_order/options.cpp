@@ -3,7 +3,7 @@
 
 #include "common/builtin_film.hpp"
 
-#include "nephroid/footprint/smoothing.hpp"
+#include "nephroid/smoothing/policies.hpp"
 
 #include <CLI/CLI.hpp>
 

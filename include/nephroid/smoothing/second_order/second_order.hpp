@@ -109,9 +109,9 @@ public:
         const std::optional<FieldSample> found = photon.frame.is_regular() ? field_at(photon) : std::nullopt;
         const auto tangents = unit_tangents(deposit);
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
-            const double fallback = !has_cells(photon.sample)       ? others_
+            const double fallback = !has_cells(photon.sample)        ? others_
                                     : photon.sample.coordinates == 2 ? options_.policy.bounds.least
-                                                                    : default_smoothing;
+                                                                     : default_smoothing;
             scale(deposit, T(options_.smoothing.value_or(fallback)));
             if (second != nullptr)
                 *second = {};
