@@ -68,7 +68,7 @@ TEST_CASE_TEMPLATE("trace photons: stores every photon that a walk deposits", T,
     CHECK(traced.statistics.emitted.photons == 5000);
 }
 
-// The splatter adds up in photon order, so equal deposits give equal sums to the last bit.
+// The sums adds up in photon order, so equal deposits give equal sums to the last bit.
 TEST_CASE("trace photons: stores the photons that splatting splats") {
     using V = Vec<float>;
     std::vector<Vertex<V>> vertices;
@@ -77,13 +77,13 @@ TEST_CASE("trace photons: stores the photons that splatting splats") {
     const PhotonPass pass{.count = 5000};
     const auto traced = trace_photons(pond<float>(), lamp<float>(), pass);
     const auto disks = Published{}.with_shape(FixedFootprint{0.2});
-    auto splatter = nephroid::sums<float>(map), stored = nephroid::sums<float>(map);
-    const Statistics account = splat_caustics(pond<float>(), lamp<float>(), splatter, pass, disks);
+    auto sums = nephroid::sums<float>(map), stored = nephroid::sums<float>(map);
+    const Statistics account = splat_caustics(pond<float>(), lamp<float>(), sums, pass, disks);
     const Statistics of_stored = splat(traced.deposits, stored, {}, disks);
     CHECK(of_stored[Fate::splatted].photons == account[Fate::splatted].photons);
     CHECK(of_stored[Fate::unseen].flux == account[Fate::unseen].flux);
     std::vector<float> one(vertices.size()), other(vertices.size());
-    splatter.for_each([&](std::size_t i, float e) { one[i] = e; });
+    sums.for_each([&](std::size_t i, float e) { one[i] = e; });
     stored.for_each([&](std::size_t i, float e) { other[i] = e; });
     CHECK(one == other);
     CHECK(*std::max_element(one.begin(), one.end()) > 0);

@@ -373,7 +373,7 @@ TEST_CASE_TEMPLATE("second order: a light that draws a wavelength as well keeps 
         const PhotonPass pass{.count = 3000};
         const HaltonSequence sequence(1);
         SerialExecutor executor;
-        const SplatPolicies<> policies;
+        const Default policies;
         const auto pilot = detail::trace_pilot(ball<V>(), light, pass, policies.order, sequence, executor);
         const auto footprints =
             detail::footprints_from<emission_domains<L>>(pilot, pass, policies, 100.0, true, executor);
