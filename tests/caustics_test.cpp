@@ -2,8 +2,8 @@
 #include "nephroid/caustics.hpp"
 
 #include "nephroid/quality/reference/wave.hpp"
-#include "support/discard_excess.hpp"
 #include "support/brute_force.hpp"
+#include "support/discard_excess.hpp"
 #include "support/foreign_vectors.hpp"
 #include "transport/tiny_scenes.hpp"
 

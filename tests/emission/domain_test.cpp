@@ -13,8 +13,8 @@ TEST_CASE("emission domain: unless told otherwise it is a square without kinks t
     static_assert(domain.coordinates == 2 && domain.extra_count() == 0);
     for (const Kinks kinks : domain.kinks)
         CHECK(kinks == Kinks::nowhere);
-    for (const Edge edge : domain.edges)
-        CHECK(edge == Edge::ends);
+    for (const DomainEdge edge : domain.edges)
+        CHECK(edge == DomainEdge::ends);
 }
 
 TEST_CASE("emission domain: extras are counted besides the coordinates") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How near the smoothing that cross-validation chooses comes to the best one, which a sweep against the exact picture
 // finds: for a light of which nothing is known but the photons.
-#include "nephroid/smoothing/cross_validation.hpp"
+#include "nephroid/smoothing/cross_validated_smoothing.hpp"
 
 #include "common/builtin_cases.hpp"
 #include "nephroid/quality/reference/ring.hpp"

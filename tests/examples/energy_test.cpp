@@ -45,8 +45,8 @@ struct Energy {
     const EyePathMap map(pixels, &Pixel::position, &Pixel::normal);
     const Default policies{.filter = {filter}};
     auto sums = nephroid::sums<float>(map);
-    detail::Splatter splatter(sums, policies);
-    std::vector<detail::SplatChunk<Vec, float>> chunk(1);
+    nephroid::detail::Splatter splatter(sums, policies);
+    std::vector<nephroid::detail::SplatChunk<Vec, float>> chunk(1);
     SerialExecutor executor;
 
     Energy energy;
@@ -71,7 +71,7 @@ struct Energy {
             }
         }
         if (chunk[0].visits().size() > 100000 || i + 1 == photons) {
-            splatter.add(std::span<const detail::SplatChunk<Vec, float>>(chunk), executor);
+            splatter.add(std::span<const nephroid::detail::SplatChunk<Vec, float>>(chunk), executor);
             chunk[0].clear();
         }
     }

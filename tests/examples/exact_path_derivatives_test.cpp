@@ -3,11 +3,11 @@
 // differences of the whole path in wide precision.
 #include "nephroid/smoothing/second_order/exact_path_derivatives.hpp"
 
+#include "common/numerics/arithmetic.hpp"
 #include "common/shapes/cylinder.hpp"
 #include "common/shapes/flat.hpp"
 #include "common/shapes/sphere.hpp"
 #include "common/shapes/wave.hpp"
-#include "common/numerics/arithmetic.hpp"
 #include "smoothing/second_order/emission_differences.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
@@ -114,12 +114,12 @@ TEST_CASE("exact path derivatives: through a wave of water they are those of dif
         Wide t = (Wide(1) - ray.origin.z) / ray.direction.z;
         for (int i = 0; i < 12; ++i) {
             const Space p = ray.origin + t * ray.direction;
-            const tests::numerics::SineCosine wave = tests::numerics::sine_cosine(phase(p));
+            const examples::numerics::SineCosine wave = examples::numerics::sine_cosine(phase(p));
             const Wide climb = two_pi * (Wide(2) * ray.direction.x + ray.direction.y);
             t = t - (p.z - Wide(1) - a * wave.sine) / (ray.direction.z - a * climb * wave.cosine);
         }
         const Space p = ray.origin + t * ray.direction;
-        const Wide slope = a * two_pi * tests::numerics::sine_cosine(phase(p)).cosine;
+        const Wide slope = a * two_pi * examples::numerics::sine_cosine(phase(p)).cosine;
         const Space normal = Space{Wide(-2) * slope, -slope, Wide(1)}.unit();
         return on_floor({p, tests::bent(ray.direction, normal, Wide(1) / Wide(index))});
     };

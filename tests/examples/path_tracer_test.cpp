@@ -294,7 +294,7 @@ TEST_CASE("path tracer: the sums that it is compared with become the exact ring 
     for (const bool once : {false, true}) {
         RingSums sums(center, 1, square(distance) / (pi<double> * std::sin(elevation)), film);
         const exact::Image image = sums.irradiance(50'000, once);
-        const exact::Image truth = exact::ring({once ? exact::Reflections::one : exact::Reflections::any}, film, 2);
+        const exact::Image truth = exact::ring({once ? exact::Reflections::one : exact::Reflections::any}, film);
         CHECK(exact::worst_difference(image, truth, 0.1) < 0.01);
         CHECK(exact::mean(image) == doctest::Approx(exact::mean(truth)).epsilon(1e-4));
     }
@@ -303,7 +303,7 @@ TEST_CASE("path tracer: the sums that it is compared with become the exact ring 
 TEST_CASE("path tracer: the sums that it is compared with become the exact ball as the sphere becomes a point") {
     const exact::Film film{-0.5, 0.5, -0.5, 0.5, 8, 8};
     const exact::Image image = ball_sums(0, film, 400'000);
-    const exact::Image truth = exact::ball({exact::BallLight::point, false}, film, 2);
+    const exact::Image truth = exact::ball({exact::BallLight::point, false}, film);
     CHECK(exact::worst_difference(image, truth, 0.1) < 0.01);
     CHECK(exact::mean(image) == doctest::Approx(exact::mean(truth)).epsilon(1e-3));
 }

@@ -4,6 +4,7 @@
 #include "support/vertex.hpp"
 
 #include "nephroid/splat/splat.hpp"
+#include "nephroid/transport/walk.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

@@ -37,14 +37,14 @@ template <Vector3 V>
 /// How a pair of coordinates is mapped: its kinks, and what lies at its edges.
 struct EmissionPair {
     Kinks kinks = Kinks::nowhere;
-    Edge edges = Edge::ends;
+    DomainEdge edges = DomainEdge::ends;
 };
 
 /// How `direction_in` maps the square to a cone.
 template <Vector3 V>
 [[nodiscard]] EmissionPair directions_of(const Cone<V>& cone) {
-    return cone.is_everything() ? EmissionPair{Kinks::octahedron, Edge::folds}
-                                : EmissionPair{Kinks::diagonals, Edge::ends};
+    return cone.is_everything() ? EmissionPair{Kinks::octahedron, DomainEdge::folds}
+                                : EmissionPair{Kinks::diagonals, DomainEdge::ends};
 }
 
 } // namespace nephroid

@@ -22,7 +22,7 @@ enum class Kinks : unsigned char {
 };
 
 /// What lies at both ends of a coordinate, 0 and 1.
-enum class Edge : unsigned char {
+enum class DomainEdge : unsigned char {
     ends,    ///< a border of the light
     repeats, ///< no border: what lies at 0 lies at 1 too, and the coordinate goes round
     folds,   ///< no border: the edge of the square is folded in its middle, (0, v) is (0, 1 − v)
@@ -40,7 +40,7 @@ struct EmissionDomain {
                                            ///< an area light's positions and directions
     std::array<EmissionExtra, 2> extras{}; ///< drawn after the coordinates, in this order
     std::array<Kinks, 2> kinks{};          ///< of each pair of coordinates
-    std::array<Edge, 4> edges{};           ///< of each coordinate
+    std::array<DomainEdge, 4> edges{};     ///< of each coordinate
 
     /// How many numbers are drawn besides the coordinates.
     [[nodiscard]] constexpr std::uint32_t extra_count() const {

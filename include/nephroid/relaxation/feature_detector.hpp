@@ -2,8 +2,8 @@
 /// @file  Finds the features of a photon map and the photons on them: Section 3.2 of Spencer and Jones 2009.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
 #include "nephroid/execution/counting_sort.hpp"
+#include "nephroid/execution/executor.hpp"
 #include "nephroid/relaxation/feature_search.hpp"
 #include "nephroid/relaxation/photon_constraint.hpp"
 

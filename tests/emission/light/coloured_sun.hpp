@@ -18,9 +18,14 @@ struct ColouredSun {
     using flux_type = T;
     static constexpr EmissionDomain domain{.coordinates = 2, .extras = {EmissionExtra::wavelength}};
 
-    DirectionalLight<V, T> sun{{.direction = make_vector<V>(T(0.1), T(0), T(-1)),
-                                .irradiance = 1,
-                                .patch = BoundingSphere<V>{make_vector<V>(T(0), T(0), T(1.5)), T(1.25)}}};
+    DirectionalLight<V, T> sun = above_a_ball();
+
+    // Not as the member's initialiser, about which g++ 12 warns of a pointer that dangles.
+    [[nodiscard]] static DirectionalLight<V, T> above_a_ball() {
+        const BoundingSphere<V> ball{make_vector<V>(T(0), T(0), T(1.5)), T(1.25)};
+        return DirectionalLight<V, T>(
+            {.direction = make_vector<V>(T(0.1), T(0), T(-1)), .irradiance = 1, .patch = ball});
+    }
 
     template <class S>
     [[nodiscard]] Photon<V, T, 3> emit(S& samples, const Spread<T>& spread) const {

@@ -136,10 +136,10 @@ void check_domain(const L& light) {
         for (std::size_t d = 0; d < n; ++d) {
             Point at = point_of(i), there = at;
             const std::size_t partner = d ^ 1u;
-            if (domain.edges[d] == Edge::repeats) {
+            if (domain.edges[d] == DomainEdge::repeats) {
                 at[d] = 0, there[d] = 1;
                 CHECK(apart(ray_at(light, at), ray_at(light, there)) < 1e-7);
-            } else if (domain.edges[d] == Edge::folds) {
+            } else if (domain.edges[d] == DomainEdge::folds) {
                 for (const double side : {0.0, 1.0}) {
                     at[d] = there[d] = side;
                     there[partner] = 1 - at[partner];

@@ -23,7 +23,7 @@ using Sphere = BoundingSphere<D>;
 struct Beacon {
     using vector = D;
     using flux_type = double;
-    static constexpr EmissionDomain domain{.coordinates = 2, .edges = {Edge::repeats, Edge::ends}};
+    static constexpr EmissionDomain domain{.coordinates = 2, .edges = {DomainEdge::repeats, DomainEdge::ends}};
 
     template <class S>
     [[nodiscard]] Photon<D, double> emit(S& samples, const Spread<double>& spread) const {

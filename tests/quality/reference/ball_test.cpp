@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/quality/reference/ball.hpp"
 #include "quality/reference/compare.hpp"
 #include "support/is_sanitized.hpp"
@@ -135,8 +136,8 @@ TEST_CASE("reference ball: a pixel is the mean of the pixels it is cut into, on 
 
 TEST_CASE("reference ball: the image is symmetric, and the number of threads does not change a bit") {
     const Film film{-0.5, 0.5, -0.5, 0.5, 40, 40};
-    const Image image = ball(collimated_fresnel, film, SerialExecutor());
-    CHECK(image == ball(collimated_fresnel, film, ThreadExecutor(5)));
+    const Image image = ball(collimated_fresnel, film, nephroid::SerialExecutor());
+    CHECK(image == ball(collimated_fresnel, film, nephroid::ThreadExecutor(5)));
     Image transposed(image.size());
     for (std::size_t j = 0; j < 40; ++j)
         for (std::size_t i = 0; i < 40; ++i)

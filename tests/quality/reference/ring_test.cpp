@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/quality/reference/ring.hpp"
 #include "quality/reference/compare.hpp"
 
@@ -111,8 +112,8 @@ TEST_CASE("reference ring: a pixel is the mean of the pixels it is cut into, on 
 
 TEST_CASE("reference ring: the image is symmetric, and the number of threads does not change a bit") {
     const Film film = whole(50, 40);
-    const Image image = ring(any, film, SerialExecutor());
-    CHECK(image == ring(any, film, ThreadExecutor(5)));
+    const Image image = ring(any, film, nephroid::SerialExecutor());
+    CHECK(image == ring(any, film, nephroid::ThreadExecutor(5)));
     Image flipped(image.size());
     for (std::size_t j = 0; j < 40; ++j)
         for (std::size_t i = 0; i < 50; ++i)

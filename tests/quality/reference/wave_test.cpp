@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/quality/reference/wave.hpp"
 #include "quality/reference/compare.hpp"
 
@@ -110,5 +111,6 @@ TEST_CASE("reference wave: films with and without pixels alike give the same pix
 
 TEST_CASE("reference wave: the number of threads does not change a bit") {
     for (const Film& film : {Film{0, 1, 0, 1, 64, 64}, Film{0, 1.234567, 0, 1, 40, 41}})
-        CHECK(wave(focused_fresnel, film, SerialExecutor()) == wave(focused_fresnel, film, ThreadExecutor(5)));
+        CHECK(wave(focused_fresnel, film, nephroid::SerialExecutor()) ==
+              wave(focused_fresnel, film, nephroid::ThreadExecutor(5)));
 }

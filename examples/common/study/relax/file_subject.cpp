@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "common/study/relax/subject.hpp"
 
-#include "common/study/relax/stored_photons.hpp"
 #include "common/scene_from_gltf.hpp"
+#include "common/study/relax/stored_photons.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #include "common/study/relax/timing.hpp"
 
 #include "common/memory.hpp"
-#include "common/study/relax/subject.hpp"
 #include "common/stopwatch.hpp"
+#include "common/study/relax/subject.hpp"
 #include "common/text.hpp"
 
 #include "nephroid/relaxation/relax.hpp"

@@ -39,7 +39,7 @@ public:
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
-        return emission_.domain({Kinks::diagonals, Edge::ends}, middle_.position, radius_);
+        return emission_.domain({Kinks::diagonals, DomainEdge::ends}, middle_.position, radius_);
     }
 
     /// Exact without a target, π radiance × area; else from 64 points of the disk.

@@ -44,7 +44,7 @@ public:
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
-        return emission_.domain({Kinks::unknown, Edge::ends}, faces_.front().corner, T(0));
+        return emission_.domain({Kinks::unknown, DomainEdge::ends}, faces_.front().corner, T(0));
     }
 
     /// Exact without a target, π radiance × area; else from 64 points of the triangles.

@@ -39,7 +39,8 @@ public:
 
     [[nodiscard]] EmissionDomain exact_domain() const {
         const V middle = point(T(0.5), T(0.5)).position;
-        return emission_.domain({Kinks::nowhere, Edge::ends}, middle, T(0.5) * (length(edge_u_) + length(edge_v_)));
+        return emission_.domain({Kinks::nowhere, DomainEdge::ends}, middle,
+                                T(0.5) * (length(edge_u_) + length(edge_v_)));
     }
 
     /// Exact without a target, π radiance × area; else from 64 points of the parallelogram.

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "nephroid/emission/light.hpp"
+#include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/smoothing/second_order/area_field.hpp"
 #include "nephroid/smoothing/second_order/footprint_field.hpp"
 
