@@ -21,6 +21,7 @@
 #include <optional>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::examples;
 using tests::Space;
 using tests::Wide;

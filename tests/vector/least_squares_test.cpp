@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 
 TEST_CASE("least squares: exact rows give the unknowns whatever their weights") {
     LeastSquares<3, double> equations;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::area_samples;
 
 // 6^4 cells of 16 photons, 1296 of them about a cell. Means and shares of so many vary by 1.5/sqrt(1296/4) at most:

@@ -11,6 +11,7 @@
 #include <limits>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::area_samples;
 
 TEST_CASE("area cells: each photon is in the cell that its sample says") {

@@ -14,6 +14,7 @@
 #include <optional>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::AreaLamp;
 using tests::AreaLanding;
 using tests::AreaPhoton;

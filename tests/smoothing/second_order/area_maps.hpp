@@ -14,6 +14,8 @@
 
 namespace nephroid::tests {
 
+using namespace detail;
+
 /// The first samples of a sequence.
 template <class Sequence>
 [[nodiscard]] std::vector<AreaSample> area_samples(std::size_t count) {

@@ -9,6 +9,7 @@
 #include <numeric>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::AreaLamp;
 using tests::AreaLanding;
 using tests::AreaPhoton;

@@ -11,6 +11,7 @@
 #include <cmath>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 TEST_CASE("border bounds: footprints reach as far as the domain's border and no further") {

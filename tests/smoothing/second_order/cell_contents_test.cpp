@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 
 TEST_CASE("cell contents: each photon is in its cell and in order") {
     constexpr std::size_t cells = 7, count = 1000;

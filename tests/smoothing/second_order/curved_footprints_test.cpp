@@ -18,6 +18,7 @@
 #include <vector>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 
 namespace {
 

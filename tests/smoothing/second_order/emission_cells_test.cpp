@@ -12,6 +12,7 @@
 #include <set>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::Draws;
 using tests::halton;
 

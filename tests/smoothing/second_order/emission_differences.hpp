@@ -16,6 +16,8 @@
 
 namespace nephroid::tests {
 
+using namespace detail;
+
 /// Calls visit(photon, its sampler after emission) for the first of 1000 photons of a light.
 template <class L, class Visit>
 void for_photons(const L& light, const Visit& visit) {

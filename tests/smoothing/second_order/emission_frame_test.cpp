@@ -15,6 +15,7 @@
 #include <vector>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::Draws;
 using tests::GivenSamples;
 

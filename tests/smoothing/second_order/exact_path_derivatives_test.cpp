@@ -18,6 +18,7 @@
 #include <vector>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::for_photons;
 using tests::Neighbours;
 using tests::relative_difference;

@@ -11,6 +11,7 @@
 #include <cmath>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::affine;
 using tests::Draws;
 using tests::halton;

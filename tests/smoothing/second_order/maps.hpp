@@ -13,6 +13,8 @@
 
 namespace nephroid::tests {
 
+using namespace detail;
+
 using Samples = std::vector<std::array<double, 2>>;
 using MapPhoton = TracedPhoton<glm::dvec3, double, 2>;
 

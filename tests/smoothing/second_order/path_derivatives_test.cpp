@@ -10,6 +10,7 @@
 #include <vector>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::Draws;
 using tests::Space;
 using tests::Wide;

@@ -8,6 +8,7 @@
 #include <vector>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::Draws;
 
 namespace {

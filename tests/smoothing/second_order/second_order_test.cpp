@@ -16,6 +16,7 @@
 #include <vector>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::affine;
 using tests::halton;
 using tests::Landing;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 // The outermost photons on the left are at column 30 of 0 to 62, on the right at column 31: borders are laid there.

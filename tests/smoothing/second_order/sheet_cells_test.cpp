@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::Samples;
 
 TEST_CASE("sheet cells: cells are small only for photons that keep apart and all take one path") {

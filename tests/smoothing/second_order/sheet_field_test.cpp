@@ -10,6 +10,7 @@
 #include <cmath>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 // The radius is the largest there is, 32: borders are felt from 2.9 times that on, and half of the domain is 167 units.

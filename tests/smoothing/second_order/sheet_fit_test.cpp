@@ -9,6 +9,7 @@
 #include <limits>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 TEST_CASE("sheet fit: a quadratic map's second derivatives are the same everywhere") {

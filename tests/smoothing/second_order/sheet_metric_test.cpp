@@ -11,6 +11,7 @@
 #include <vector>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 
 namespace {
 

@@ -16,6 +16,8 @@
 
 namespace nephroid::tests {
 
+using namespace detail;
+
 using Field = FootprintField;
 
 inline constexpr double side = 63, all = side * side; // photons on a lattice: cells of 3 × 3

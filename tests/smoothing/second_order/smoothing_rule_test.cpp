@@ -9,6 +9,7 @@
 #include <limits>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::Draws;
 
 namespace {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 using namespace nephroid;
+using namespace nephroid::detail;
 using tests::Draws;
 
 namespace {

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// A plane in the domain of samples, seen from the middle of a cell; lengths in cells.
 struct AreaBorder {
@@ -77,4 +77,4 @@ template <class IsOn>
     return border;
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

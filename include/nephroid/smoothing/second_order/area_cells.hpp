@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// One number for each that an area light draws, or is split along.
 using AreaSample = std::array<double, 4>;
@@ -148,4 +148,4 @@ private:
     CellContents contents_; // last: made by what is above
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -25,7 +25,7 @@
 #include <optional>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// As FootprintField, for lights that draw four numbers.
 class AreaField {
@@ -35,7 +35,7 @@ public:
     /// @param executor  runs the fits; the field does not depend on it
     template <class Photons, class E>
     AreaField(const Photons& photons, const FieldOptions& options, E& executor)
-        : AreaField(AreaPhotons(PathSamples(photons)), options, detail::run_by(executor)) {}
+        : AreaField(AreaPhotons(PathSamples(photons)), options, run_by(executor)) {}
 
     /// Nothing where the photons say nothing: too few of them, or none that took the same path.
     [[nodiscard]] std::optional<FieldSample> at(const EmissionSample& drawn, const EmissionFrame& frame,
@@ -86,7 +86,7 @@ private:
 
     AreaField(const AreaPhotons& photons, const FieldOptions& options, const TaskRunner& run)
         : options_(options), grid_(photons.samples(), photons.cell_counts()), cells_(grid_.size()) {
-        const auto for_each_cell = [&](const auto& work) { detail::for_each_index(run, cells_.size(), 32, work); };
+        const auto for_each_cell = [&](const auto& work) { for_each_index(run, cells_.size(), 32, work); };
         for_each_cell([&](std::size_t cell) { choose_frame(cell, photons); });
         for_each_cell([&](std::size_t cell) { fit(cell, photons); });
         if (options_.smoothing) {
@@ -230,4 +230,4 @@ private:
     std::vector<Cell> cells_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

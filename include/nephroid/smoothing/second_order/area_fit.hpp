@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// Two tangents, or their change.
 struct TangentPair {
@@ -116,4 +116,4 @@ private:
     std::vector<Neighbour> photons_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// Photons of one area light, and the four numbers that each was drawn from.
 class AreaPhotons {
@@ -112,4 +112,4 @@ private:
     std::vector<AreaSample> samples_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -17,9 +17,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nephroid {
-
-namespace detail {
+namespace nephroid::detail {
 
 /// J⁻¹ of a vector in the image of J (what sticks out is dropped), kept finite where J is singular.
 class EmissionPullback {
@@ -140,8 +138,6 @@ private:
     return length > longest ? (longest / length) * step : step;
 }
 
-} // namespace detail
-
 /// Q: how much the map bends, by direction, per u0²: footprints that bend least are in proportion to Q⁻¹, and S of
 /// that shape bends by tr(S Q).
 ///
@@ -152,13 +148,13 @@ private:
 [[nodiscard]] inline Symmetric2 bending(const PathDerivatives& map, double photons, double share = 1,
                                         double roughness = 0,
                                         double stretch = std::numeric_limits<double>::infinity()) {
-    const detail::Bend bend(map, share, 0.5 * roughness + 5 / (pi<double> * photons));
+    const Bend bend(map, share, 0.5 * roughness + 5 / (pi<double> * photons));
     PlaneMatrix axes{{1, 0}, {0, 1}};
     const auto shape = [&] { return Principal2(congruent(axes, Symmetric2::isotropic(1))); };
     constexpr int most_steps = 16; // a dozen where the shape is a needle; half of that as a rule
     for (int step = 0; step < most_steps; ++step) {
-        const Plane2 x = detail::downhill(bend.turned(axes));
-        axes = axes * detail::stretching(x);
+        const Plane2 x = downhill(bend.turned(axes));
+        axes = axes * stretching(x);
         const Principal2 radii2 = shape();
         if (!(std::hypot(x.x, x.y) > 1e-7) || radii2.larger > 1e6 * radii2.smaller)
             break;
@@ -176,7 +172,7 @@ private:
 /// direction changes the tangents. The light of all slices together is smooth where one of them bends, and footprints
 /// that are long where their own slice allows it have a larger error (a ring lit by a disk: 0.058 against 0.052).
 [[nodiscard]] inline Symmetric2 slice_bending(const PathDerivatives& map, double photons, double roughness) {
-    const detail::EmissionPullback pull_back(map.first);
+    const EmissionPullback pull_back(map.first);
     const std::array<Plane2, 3> h = {pull_back(map.second[0]), pull_back(map.second[1]), pull_back(map.second[2])};
     const std::array<Plane2, 4> t = {pull_back(map.third[0]), pull_back(map.third[1]), pull_back(map.third[2]),
                                      pull_back(map.third[3])};
@@ -191,4 +187,4 @@ private:
     return q + Symmetric2::isotropic(0.5 * roughness + 5 / (pi<double> * photons));
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

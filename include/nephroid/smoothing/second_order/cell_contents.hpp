@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// Photons 0 to count − 1, sorted by cell. Within a cell they keep their order.
 class CellContents {
@@ -38,4 +38,4 @@ private:
     std::vector<std::uint32_t> begin_, photons_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -17,9 +17,8 @@
 #include <cstddef>
 #include <span>
 
-namespace nephroid {
+namespace nephroid::detail {
 
-namespace detail {
 /// A part of the unit disk, of half its radius.
 struct DiskPiece {
     Plane2 place;
@@ -38,12 +37,11 @@ inline constexpr std::array<DiskPiece, 7> disk_pieces = [] {
                                      {{-0.25, -h}, 0.125},
                                      {{0.25, -h}, 0.125}}};
 }();
-} // namespace detail
 
 /// A footprint in pieces.
 template <Vector3 V, Flux F, std::size_t N>
 struct CurvedDeposit {
-    std::array<Deposit<V, F, N>, detail::disk_pieces.size()> all;
+    std::array<Deposit<V, F, N>, disk_pieces.size()> all;
     std::size_t count; ///< of them that are to be splatted: all, or 1, the whole
 
     [[nodiscard]] std::span<const Deposit<V, F, N>> pieces() const { return {all.data(), count}; }
@@ -66,17 +64,17 @@ template <Vector3 V, Flux F, std::size_t N>
     if (!(bend2 > square(policy.least_bend * minor)) || !std::isfinite(bend2))
         return result;
 
-    result.count = detail::disk_pieces.size();
+    result.count = disk_pieces.size();
     constexpr double of_places = 3.0 / 32; // their variance; with a quarter of its own, a biweight piece makes 1/8
     const double size = std::sqrt(second_moment / (of_places + 0.25 * second_moment));
     const auto world = [](const Space3& v) -> V { return make_vector<V>(T(v.x), T(v.y), T(v.z)); };
     const Space3 mean = (0.5 * square(size) * of_places) * (second[0] + second[2]);
     for (std::size_t i = 0; i < result.count; ++i) {
-        const Plane2 q = size * detail::disk_pieces[i].place;
+        const Plane2 q = size * disk_pieces[i].place;
         const Space3 by_u = q.x * second[0] + q.y * second[1], by_v = q.x * second[1] + q.y * second[2];
         Deposit<V, F, N>& piece = result.all[i];
         piece = deposit;
-        piece.flux = static_cast<F>(deposit.flux * T(detail::disk_pieces[i].weight));
+        piece.flux = static_cast<F>(deposit.flux * T(disk_pieces[i].weight));
         piece.position = deposit.position +
                          (T(0.5 * q.x) * deposit.d_position[0] + T(0.5 * q.y) * deposit.d_position[1]) +
                          world(0.5 * (q.x * by_u + q.y * by_v) - mean);
@@ -89,4 +87,4 @@ template <Vector3 V, Flux F, std::size_t N>
     return result;
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// The tangents of a deposit by its emission frame's unit: J.
 template <Vector3 V, Flux F, std::size_t N>
@@ -167,4 +167,4 @@ private:
     Plane2 by_x_, by_y_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

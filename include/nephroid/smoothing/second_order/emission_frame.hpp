@@ -7,7 +7,7 @@
 
 #include <array>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// From one photon of an area light to another: how far apart in place and in direction, each in units of the half
 /// tangents' parts.
@@ -120,4 +120,4 @@ private:
     Symmetric2 gram_{};
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

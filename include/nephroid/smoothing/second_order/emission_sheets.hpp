@@ -13,7 +13,7 @@
 #include <array>
 #include <limits>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// The photons of a light that took one path.
 struct EmissionSheet {
@@ -32,7 +32,7 @@ public:
         const EmissionCells cells(photons.places(photons.size()), aspect_, repeats);
         const std::vector<std::uint32_t> kinds = sort_by_path(photons);
 
-        const auto for_each_cell = [&](const auto& work) { detail::for_each_index(run, cells.size(), 64, work); };
+        const auto for_each_cell = [&](const auto& work) { for_each_index(run, cells.size(), 64, work); };
         std::vector<Neighbours> neighbours(photons.size());
         std::vector<float> shares(photons.size(), 1);
         for_each_cell([&](std::size_t cell) { find_neighbours(cells, cell, photons, kinds, neighbours); });
@@ -188,4 +188,4 @@ private:
     std::vector<std::uint8_t> next_to_border_; // not bits: threads write side by side
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -27,8 +27,9 @@ namespace nephroid {
 
 /// A path that was followed to its end, and how that end moves with the photon's emission coordinates.
 struct ExactPath {
-    Space3 position;     ///< where the photon landed
-    PathDerivatives map; ///< in the photon's own EmissionFrame; `third` is 0 unless the scalar is a dual of duals
+    detail::Space3 position; ///< where the photon landed
+    detail::PathDerivatives
+        map; ///< in the photon's own EmissionFrame; `third` is 0 unless the scalar is a dual of duals
     std::uint32_t signature = 0; ///< of the path (PathSignature): the same as the plain walk's
 };
 

@@ -9,7 +9,7 @@
 #include <array>
 #include <optional>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// What chooses the footprints.
 struct FieldOptions {
@@ -28,4 +28,4 @@ struct FieldSample {
     std::array<Space3, 3> second; ///< H
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -4,7 +4,7 @@
 
 #include "nephroid/smoothing/second_order/sheet_field.hpp"
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// Shapes of footprints and second derivatives over the emission domain of one light.
 class FootprintField {
@@ -14,7 +14,7 @@ public:
     /// @param executor  runs the fits; the field does not depend on it
     template <class Photons, class E>
     FootprintField(const Photons& photons, const FieldOptions& options, E& executor)
-        : FootprintField(PathSamples(photons), options, detail::run_by(executor)) {}
+        : FootprintField(PathSamples(photons), options, run_by(executor)) {}
 
     /// Nothing where the photons say nothing: too few of them took this path.
     [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame,
@@ -50,4 +50,4 @@ private:
     std::vector<Sheet> sheets_; // sorted by signature
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// A vector of space in double precision, whatever the renderer's.
 struct Space3 {
@@ -80,4 +80,4 @@ private:
     std::size_t photons_ = 0;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

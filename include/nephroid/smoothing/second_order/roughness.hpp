@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// A photon's J, and what of it a map does not explain.
 struct TangentResidual {
@@ -33,7 +33,7 @@ struct TangentResidual {
         return sum;
     };
     const auto size2 = [](const std::array<Space3, 2>& tangents, const std::array<Space3, 2>& jump) {
-        const detail::EmissionPullback pull_back(tangents);
+        const EmissionPullback pull_back(tangents);
         const Plane2 u = pull_back(jump[0]), v = pull_back(jump[1]);
         return inner(u, u) + inner(v, v);
     };
@@ -56,4 +56,4 @@ struct TangentResidual {
     return sum / double(photons.size());
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

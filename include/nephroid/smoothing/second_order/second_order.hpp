@@ -30,7 +30,7 @@
 #include <variant>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// The photons of a pass, turned to footprints.
 ///
@@ -205,4 +205,4 @@ private:
     std::vector<LightField> fields_; // sorted by light
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -17,7 +17,7 @@
 #include <optional>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// Shapes of footprints and second derivatives over one sheet, on a grid of cells.
 class SheetField {
@@ -30,44 +30,44 @@ public:
                const FieldOptions& options, const TaskRunner& run)
         : options_(options), density_{options.stratified, sheet.share}, aspect_(sheets.aspect()), bounds_(options),
           cells_(EmissionCells(places_of(all, sheet), sheets.aspect(), options.repeats,
-                               detail::photons_per_cell(options.stratified, sheet.share) *
-                                   double(sheet.photons.size()) / (double(all.size()) * sheet.share))) {
+                               photons_per_cell(options.stratified, sheet.share) * double(sheet.photons.size()) /
+                                   (double(all.size()) * sheet.share))) {
         PathSamples photons;
         for (const std::uint32_t i : sheet.photons)
             photons.add(all[i]);
         const auto for_each_cell = [&](const auto& work) {
-            detail::for_each_index(run, cells_.size(), 32, [&](std::size_t i) { work(cells_[i]); });
+            for_each_index(run, cells_.size(), 32, [&](std::size_t i) { work(cells_[i]); });
         };
-        for_each_cell([&](detail::SheetCell& cell) {
-            detail::choose_frame(cell, cells_, photons);
+        for_each_cell([&](SheetCell& cell) {
+            choose_frame(cell, cells_, photons);
             for (const std::uint32_t i : cells_.grid().photons(cell.square))
                 cell.is_next_to_border = cell.is_next_to_border || sheets.is_next_to_border(sheet.photons[i]);
         });
-        for_each_cell([&](detail::SheetCell& cell) {
+        for_each_cell([&](SheetCell& cell) {
             if (cell.has_frame)
-                detail::fit_derivatives(cell, cells_, photons, options_, density_.share);
+                fit_derivatives(cell, cells_, photons, options_, density_.share);
         });
         if (options_.smoothing) {
             for (std::size_t i = 0; i < cells_.size(); ++i)
                 cells_[i].shape = Symmetric2::isotropic(square(*options_.smoothing));
             return;
         }
-        detail::find_borders(cells_, photons, options_.bounds.largest_radius);
-        for_each_cell([&](detail::SheetCell& cell) { choose_shape(cell); });
+        find_borders(cells_, photons, options_.bounds.largest_radius);
+        for_each_cell([&](SheetCell& cell) { choose_shape(cell); });
     }
 
     /// Nothing where the photons say nothing: there are too few of them.
     [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame) const {
-        const detail::SheetCell* here = cells_.cell_in(cells_.grid().cell_of(sample));
+        const SheetCell* here = cells_.cell_in(cells_.grid().cell_of(sample));
         if (here == nullptr || !here->is_resolved)
             return std::nullopt;
         FieldSample result{};
         VaryingShape shape;
-        const PlaneMatrix& metric = here->metric_by_side[detail::side_of(sample)];
+        const PlaneMatrix& metric = here->metric_by_side[side_of(sample)];
         const PlaneMatrix samples_by_place = (frame.axes_of(here->frame) * metric).inverse();
-        for (const detail::SheetNode& node : cells_.nodes_about(sample)) {
-            const detail::SheetCell* there = cells_.cell_in(node.square);
-            const detail::SheetCell& cell = there != nullptr && there->is_resolved ? *there : *here;
+        for (const SheetNode& node : cells_.nodes_about(sample)) {
+            const SheetCell* there = cells_.cell_in(node.square);
+            const SheetCell& cell = there != nullptr && there->is_resolved ? *there : *here;
             // Tensors turn with the axes that they are by.
             const PlaneMatrix axes = frame.axes_of(cell.frame), back = cell.frame.axes_of(frame);
             const VaryingShape of_cell = shape_in(cell, sample, back).turned(axes);
@@ -97,12 +97,12 @@ private:
     }
 
     /// By what the cells about it say together of how the map bends.
-    void choose_shape(detail::SheetCell& cell) const {
+    void choose_shape(SheetCell& cell) const {
         if (!cell.is_resolved)
             return;
         double weights = 0;
         Symmetric2 blurred{};
-        cells_.for_each_around(cell, [&](const detail::SheetCell& other, double weight) {
+        cells_.for_each_around(cell, [&](const SheetCell& other, double weight) {
             if (!other.is_resolved)
                 return;
             blurred += weight * congruent(cell.frame.axes_of(other.frame), other.log_q);
@@ -114,7 +114,7 @@ private:
     /// A cell's shape where a photon is, in the cell's frame: no wider than the sheet.
     ///
     /// @param steps  a step along the photon's axes in the cell's frame, by columns
-    [[nodiscard]] VaryingShape shape_in(const detail::SheetCell& cell, const std::array<double, 2>& sample,
+    [[nodiscard]] VaryingShape shape_in(const SheetCell& cell, const std::array<double, 2>& sample,
                                         const PlaneMatrix& steps) const {
         VaryingShape shape{cell.shape, {}, {}};
         if (!options_.smoothing) {
@@ -127,8 +127,8 @@ private:
     FieldOptions options_;
     PhotonDensity density_;
     double aspect_; // of the domain: its length along the first sample over that along the second
-    detail::BorderBounds bounds_;
-    detail::SheetCells cells_;
+    BorderBounds bounds_;
+    SheetCells cells_;
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

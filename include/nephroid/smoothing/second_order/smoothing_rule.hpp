@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// log Q, its eigenvalues no further apart than the stretch allows. Neighbouring cells are blended in this form.
 [[nodiscard]] inline Symmetric2 log_bending(const Symmetric2& q, const SmoothingBounds& bounds) {
@@ -26,7 +26,6 @@ namespace nephroid {
     return principal.with(std::log(principal.larger), std::log(smaller));
 }
 
-namespace detail {
 /// S in proportion to Q⁻¹ with det S = s⁴, its radii within their bounds.
 [[nodiscard]] inline Symmetric2 tensor_of_smoothing(const Symmetric2& log_q, double s, const SmoothingBounds& bounds) {
     const Principal2 principal(log_q);
@@ -43,7 +42,6 @@ namespace detail {
     const double root_determinant = std::exp(0.5 * log_q.trace()); // of Q
     return 0.02 * 4 * root_determinant * root_determinant;
 }
-} // namespace detail
 
 /// How photons lie over the emission domain.
 struct PhotonDensity {
@@ -58,7 +56,7 @@ struct PhotonDensity {
 /// among stratified photons leaves a variance of 1.8 (1 − p)/s² + 2.8 p²/s⁴.
 [[nodiscard]] inline Symmetric2 smoothing_tensor(const Symmetric2& log_q, const PhotonDensity& density,
                                                  const SmoothingBounds& bounds) {
-    const double p = density.share, g = detail::bias_left(log_q) / (p * p);
+    const double p = density.share, g = bias_left(log_q) / (p * p);
     const double random = 0.923 * std::pow(g, -1.0 / 5);
     double s = random;
     if (density.stratified) {
@@ -68,7 +66,7 @@ struct PhotonDensity {
             for (int step = 0; step < 8; ++step)
                 s = std::pow((1 - p) * std::pow(random, 10) * s * s + p * p * std::pow(regular, 12), 1.0 / 12);
     }
-    return detail::tensor_of_smoothing(log_q, (std::max)(bounds.least, s / std::sqrt(p)), bounds);
+    return tensor_of_smoothing(log_q, (std::max)(bounds.least, s / std::sqrt(p)), bounds);
 }
 
 /// S from log Q for the photons of an area light. Two things are not as for two emission coordinates: samples of four
@@ -79,8 +77,8 @@ struct PhotonDensity {
 /// (ring-disk-zoom, a ring lit by a small disk) with 20,000 photons.
 [[nodiscard]] inline Symmetric2 area_smoothing_tensor(const Symmetric2& log_q, bool stratified,
                                                       const SmoothingBounds& bounds) {
-    const double s = (stratified ? 1.2 : 1.5) * std::pow(detail::bias_left(log_q), -1.0 / 5);
-    return detail::tensor_of_smoothing(log_q, (std::max)(bounds.least, s), bounds);
+    const double s = (stratified ? 1.2 : 1.5) * std::pow(bias_left(log_q), -1.0 / 5);
+    return tensor_of_smoothing(log_q, (std::max)(bounds.least, s), bounds);
 }
 
 /// S with its radius along a unit direction reduced to `most`, and across it as it was.
@@ -94,4 +92,4 @@ struct PhotonDensity {
     return reduced;
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// S and its derivatives by the two emission coordinates u and v, all in the axes of one frame.
 struct VaryingShape {
@@ -52,4 +52,4 @@ struct VaryingShape {
     }
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail
