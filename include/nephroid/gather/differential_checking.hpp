@@ -12,10 +12,10 @@ namespace nephroid {
 ///
 /// From time to time the estimate E with a constant kernel is checked. In even light ln E of n random photons has the
 /// standard deviation 1/√n (for unequal fluxes n is (ΣΦ)²/ΣΦ²), so each check confines ln E to an interval of
-/// half width
-/// `significance`/√n. Where these intervals have no point in common any more, the disk has reached other light, and
-/// the photons of the previous check are taken. This is Lepski's choice of a bandwidth, the largest whose estimate no
-/// smaller one contradicts; the papers on differential checking leave the rule open.
+/// half width `significance`/√n. Where these intervals have no point in common any more, the disk has reached
+/// other light, and the photons of the previous check are taken. This is Lepski's choice of a bandwidth, the largest
+/// whose estimate no smaller one contradicts; the papers on differential checking leave the rule open
+/// [include/nephroid/README.md, "Differential checking"].
 ///
 /// With the defaults, even light of random photons is cut short in 0.1% of places for 200 photons, 0.7% for 1000 and
 /// 2.4% for 4000; of stratified photons more rarely.

@@ -34,7 +34,7 @@ struct DiffusionOptions {
 /// where light changes smoothly. 0.4 is within 1.2 times the error of the best of these on both kinds.
 ///
 /// Source: Schjøth, Olsen and Sporring 2008, as Frisvad et al. 2014 describe it; the formulas are ours where that
-/// description leaves them open.
+/// description leaves them open [include/nephroid/README.md, "Diffusion"].
 ///
 /// ```cpp
 /// const nephroid::DiffusionEstimate estimate(map, {.range = 0.02}, nephroid::BiweightKernel{}, executor);

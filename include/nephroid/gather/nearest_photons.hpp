@@ -21,7 +21,8 @@ struct NearestPhotonsOptions {
 /// Estimates irradiance as Σ Φ K(r²/R²)/R² over the photons nearest to a point, R the distance of the k-th.
 ///
 /// Only photons on the side that the normal faces are searched for, so all k of them count. The k-th photon gives R and
-/// nothing else, as K is zero at the rim: for random photons this makes the estimate unbiased with every kernel.
+/// nothing else, as K is zero at the rim: for random photons this makes the estimate unbiased with every kernel
+/// [include/nephroid/README.md, "The k-th photon only gives the radius"].
 ///
 /// Where `range` holds fewer than k photons, R is the range. Where there are fewer than k in all and no range, R is the
 /// distance of the farthest. R is never below the resolution of positions, four epsilon of the distance from the

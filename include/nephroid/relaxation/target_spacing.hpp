@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// @file  The spacing that relaxation aims at, so that it evens out the noise of a caustic and not the caustic itself.
 ///
-/// Repulsion alone ends where all photons are equally far apart: 20 iterations blur a map as if its 300 nearest photons
-/// had been averaged. With distances measured in units of the local spacing it ends at the local density instead. That
-/// density is a pilot estimate from many neighbours, as for adaptive kernels [Abramson 1982]. What the pilot blurs is
-/// not lost, as the ratio of the photons' density to the pilot's evens out over a few spacings only, as in
-/// multiplicative bias correction [Jones, Linton and Nielsen 1995].
+/// Distances are measured in units of the local spacing, so that repulsion ends at the local density. That density is a
+/// pilot estimate from many neighbours [include/nephroid/README.md, "What photons aim at"].
 #pragma once
 
 #include "nephroid/relaxation/photon_cloud.hpp"

@@ -114,7 +114,7 @@ inline constexpr auto sobol_tables = [] {
 ///
 /// In every step a bit affects only itself and higher bits, which makes the scrambling nested [Laine and Karras 2011].
 /// The flips of different prefixes are independent because the key enters three times, and by the choice of constants:
-/// their correlations over keys cannot be told from an ideal scrambling's (those of Laine and Karras reach 0.65).
+/// their correlations over keys cannot be told from an ideal scrambling's [include/nephroid/README.md, "Sequences"].
 [[nodiscard]] constexpr std::uint32_t nested_uniform_scramble(std::uint32_t digits, std::uint64_t key) noexcept {
     const auto low = static_cast<std::uint32_t>(key), high = static_cast<std::uint32_t>(key >> 32);
     std::uint32_t x = digits;

@@ -2,17 +2,10 @@
 /// @file  One smoothing for all photons of a pass, chosen by comparing estimates from parts of them: where nothing is
 ///        known of the light but its photons.
 ///
-/// Let W be the picture from all photons at one smoothing, A and B those from either half of them with the same
-/// footprints, so that W = (A + B)/2, and A₀ and B₀ the halves at so small a smoothing that they are noisy but
-/// hardly biased. Then the sum over the vertices of W² − A B₀ − B A₀ is, but for a constant, the squared error
-/// of W on average, less 2 cov(A, B₀). Halves of random photons do not covary. Those of a sequence do, as each fills
-/// the other's gaps: with ρ the correlation that is left, the sum of (A − B)(A₀ − B₀) has 2 cov(A, B₀)
-/// as its share ρ/(1 − ρ), which is added. And ρ follows from how the noise falls with the number n of
-/// photons, as n^−β: ρ = 2^(1−β) − 1. Random ones have β = 1; of a stratified sequence it is measured,
-/// from quarters to halves of them: up to 2, with ρ = −1/2, where two numbers make a photon, and less where more do.
-///
-/// The error is least where its bias, as s⁴/N², and its variance, as s^−2β, balance: a pass of more photons than
-/// were compared takes an s that grows with their number as N^(1/(2 + β)).
+/// With W the picture from all photons at one smoothing, A and B those from either half of them, and A₀ and B₀ the
+/// halves at a small smoothing, the sum over the vertices of W² − A B₀ − B A₀ is the squared error of W on
+/// average, but for a constant and for what the halves of a sequence know of each other. Where that comes from, and how
+/// s grows with the number of photons, is told in include/nephroid/README.md, "Cross-validation".
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
