@@ -35,7 +35,7 @@ namespace nephroid::detail {
 /// The photons of a pass, turned to footprints.
 ///
 /// @tparam domains  what its lights may emit from: no more is compiled than these need
-template <Vector3 V, EmissionDomains domains = EmissionDomains{}>
+template <Vector3 V, EmissionDomains domains = EmissionDomains{true, true, true}>
 class SecondOrderFootprints {
 public:
     using T = scalar_t<V>;
