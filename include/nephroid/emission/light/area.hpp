@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/aligned_basis.hpp"
+#include "nephroid/emission/chart/direction_chart.hpp"
 #include "nephroid/emission/cone.hpp"
 #include "nephroid/emission/light.hpp"
 #include "nephroid/emission/light/validate.hpp"
@@ -62,6 +63,22 @@ public:
         const T stands_for = pi<T> / dot(direction, point.normal); // 1 / density
         return {point.position, direction, static_cast<F>(radiance_ * (pi<T> * area_share)),
                 tangents(point.normal, direction, spread.length(area), spread.length(stands_for))};
+    }
+
+    /// The charts of a point, as of a lamp by itself: what it sends above its horizon, towards the target if there is
+    /// one.
+    ///
+    /// @param area  that it stands for, world units squared
+    [[nodiscard]] EmissionCharts<V, F> charts(const LightPoint<V>& point, T area) const {
+        Cone<V> cone{point.normal, T(1)};
+        if (target_) {
+            const Cone<V> towards = cone_towards(*target_, point.position);
+            if (towards.height < cone.height)
+                cone = towards;
+        }
+        return cone_charts<V, F>(point.position, cone, [radiance = radiance_, area, normal = point.normal](const V& d) {
+            return static_cast<F>(radiance * (area * (std::max)(T(0), dot(d, normal))));
+        });
     }
 
     /// An estimate of the flux of a light of this area, from some of its points: `point(u1, u2)` at 64 places.

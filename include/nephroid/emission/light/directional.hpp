@@ -4,6 +4,7 @@
 
 #include "nephroid/emission/aligned_basis.hpp"
 #include "nephroid/emission/beam.hpp"
+#include "nephroid/emission/chart/beam_chart.hpp"
 #include "nephroid/emission/light.hpp"
 #include "nephroid/emission/light/validate.hpp"
 #include "nephroid/emission/warp.hpp"
@@ -62,6 +63,15 @@ public:
     /// Exact: irradiance times the patch's area as the beam sees it.
     [[nodiscard]] double power() const {
         return flux_traits<F>::power(static_cast<F>(irradiance_ * (area_ * cosine_)));
+    }
+
+    /// Its patch; of a disk, the square about it.
+    [[nodiscard]] EmissionCharts<V, F> charts() const {
+        if (!is_disk_)
+            return {beam_chart<V, F>(direction_, origin_, edge_u_, edge_v_,
+                                     static_cast<F>(irradiance_ * (area_ * cosine_)), false)};
+        return {beam_chart<V, F>(direction_, V(origin_ - (edge_u_ + edge_v_)), V(T(2) * edge_u_), V(T(2) * edge_v_),
+                                 static_cast<F>(irradiance_ * (T(4) / pi<T> * area_)), true)};
     }
 
     /// The unit direction that the light goes.

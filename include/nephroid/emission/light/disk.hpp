@@ -42,6 +42,13 @@ public:
         return emission_.domain({Kinks::diagonals, DomainEdge::ends}, middle_.position, radius_);
     }
 
+    /// The charts of a point of the light that stands for a share of its area.
+    ///
+    /// @param u1,u2  which point, in [0, 1]
+    [[nodiscard]] EmissionCharts<V, F> charts_at(T u1, T u2, T share) const {
+        return emission_.charts(point(u1, u2), share * area_);
+    }
+
     /// Exact without a target, π radiance × area; else from 64 points of the disk.
     [[nodiscard]] double power() const { return power_; }
 

@@ -2,6 +2,7 @@
 /// @file  A point light: the same intensity in every direction.
 #pragma once
 
+#include "nephroid/emission/chart/direction_chart.hpp"
 #include "nephroid/emission/cone.hpp"
 #include "nephroid/emission/light.hpp"
 #include "nephroid/emission/light/validate.hpp"
@@ -61,6 +62,10 @@ public:
     [[nodiscard]] EmissionDomain exact_domain() const {
         const EmissionPair pair = directions_of(cone_);
         return {.coordinates = 2, .kinks = {pair.kinks}, .edges = {pair.edges, pair.edges}};
+    }
+
+    [[nodiscard]] EmissionCharts<V, F> charts() const {
+        return cone_charts<V, F>(position_, cone_, [intensity = intensity_](const V&) { return intensity; });
     }
 
     /// Exact: intensity times the solid angle of the cone.

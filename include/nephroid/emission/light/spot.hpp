@@ -69,6 +69,12 @@ public:
         return {.coordinates = 2, .kinks = {pair.kinks}, .edges = {pair.edges, pair.edges}};
     }
 
+    [[nodiscard]] EmissionCharts<V, F> charts() const {
+        return cone_charts<V, F>(position_, cone_, [light = *this](const V& direction) -> F {
+            return static_cast<F>(light.intensity_ * light.falloff(direction));
+        });
+    }
+
     /// The share of the intensity that goes into a unit direction, in [0, 1].
     /// Source: glTF extension KHR_lights_punctual, "Inner and outer cone angles".
     [[nodiscard]] T falloff(const V& direction) const {

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+/// @file  A cell of a chart becomes light on the receiver: a patch where it is whole, polygons where sheets end in it.
+#pragma once
+
+#include "nephroid/sheet/cell_outline.hpp"
+#include "nephroid/sheet/cell_tangents.hpp"
+#include "nephroid/sheet/patch_blocks.hpp"
+#include "nephroid/sheet/refine.hpp"
+#include "nephroid/sheet/sheet_account.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// A leaf of the receiver, and a block that it is to be lit by.
+struct BlockVisit {
+    std::uint32_t leaf, block;
+};
+
+/// What a tile sends to the receiver, in the order of its cells.
+template <Vector3 V, Flux F>
+struct TilePieces {
+    SheetPieces<V, F> pieces;
+    std::vector<BlockVisit> visits;
+
+    void clear() {
+        pieces.clear();
+        visits.clear();
+    }
+};
+
+/// Draws the cells of one tile.
+///
+/// @tparam Nodes  NodeCache
+template <Vector3 V, Flux F, class Nodes>
+class CellPieces {
+public:
+    using T = scalar_t<V>;
+    using Node = NodeEnd<V, F>;
+
+    CellPieces(const Lattice& lattice, const ReceiverPixels<V>& pixels, const Tessellation& rule, Nodes& nodes,
+               TilePieces<V, F>& tile, SheetAccount& account)
+        : lattice_(lattice), pixels_(pixels), nodes_(nodes), tile_(tile), account_(account), blocks_(pixels, rule) {}
+
+    void add(const Cell& cell) {
+        ++account_.cells;
+        std::array<NodeEnds<V, F>, 4> corners;
+        for (std::size_t k = 0; k < 4; ++k)
+            corners[k] = nodes_.known(corner_of(cell, k));
+        outlines_.clear();
+        for (std::size_t k = 0; k < 4; ++k)
+            for (const Node& end : corners[k])
+                if (is_first_of(corners, k, end.signature))
+                    add_sheet(cell, corners, end.signature);
+        if (outlines_.empty())
+            return;
+        ++account_.cut_cells;
+        // Where each corner has one end, so has all light between them: what bands too thin to be met by a node would
+        // get is shared out among the others.
+        double covered = 0;
+        for (const CellOutline<V, F>& outline : outlines_)
+            covered += outline.area();
+        const bool is_lit_everywhere =
+            std::all_of(corners.begin(), corners.end(), [](const auto& ends) { return ends.size() == 1; });
+        for (const CellOutline<V, F>& outline : outlines_)
+            add_outline(cell, outline, is_lit_everywhere && covered > 0 ? 1 / covered : 1);
+    }
+
+private:
+    /// Corners counter-clockwise from the first.
+    [[nodiscard]] static LatticePlace corner_of(const Cell& cell, std::size_t k) {
+        return {cell.place.i + (k == 1 || k == 2 ? cell.step : 0), cell.place.j + (k >= 2 ? cell.step : 0)};
+    }
+
+    [[nodiscard]] static bool is_first_of(const std::array<NodeEnds<V, F>, 4>& corners, std::size_t k,
+                                          std::uint32_t signature) {
+        for (std::size_t before = 0; before < k; ++before)
+            if (end_of<V, F>(corners[before], signature))
+                return false;
+        return true;
+    }
+
+    /// Draws a sheet's patch if it covers the whole cell, else notes its outlines.
+    void add_sheet(const Cell& cell, const std::array<NodeEnds<V, F>, 4>& corners, std::uint32_t signature) {
+        std::array<const Node*, 4> ends;
+        for (std::size_t k = 0; k < 4; ++k)
+            ends[k] = end_of<V, F>(corners[k], signature);
+        const auto pixel = [&] { return pixel_about(ends); };
+        std::array<bool, 4> is_joined;
+        bool is_whole = true;
+        for (std::size_t k = 0; k < 4; ++k) {
+            const Node *const a = ends[k], *const b = ends[(k + 1) % 4];
+            is_joined[k] = a && b && are_joined(*a, *b, pixel);
+            is_whole &= is_joined[k];
+            account_.parted += std::uint64_t(a && b && !is_joined[k]);
+        }
+        if (is_whole)
+            add_patch(cell, ends, pixel);
+        else
+            OutlineFinder<V, F, Nodes, decltype(pixel)>(nodes_, pixel)
+                .visit_pieces(cell.place, cell.step, ends, is_joined,
+                              [&](const CellOutline<V, F>& outline) { outlines_.push_back(outline); });
+    }
+
+    template <class Pixel>
+    void add_patch(const Cell& cell, const std::array<const Node*, 4>& ends, const Pixel& pixel) {
+        const auto known = [&](const LatticePlace& place) { return nodes_.known(place); };
+        constexpr std::size_t number[2][2] = {{0, 3}, {1, 2}}; // of the corner at u = i, v = j
+        LitPatch<V, F> patch{};
+        for (std::size_t i = 0; i < 2; ++i)
+            for (std::size_t j = 0; j < 2; ++j) {
+                const std::size_t k = number[i][j];
+                const LatticePlace place = corner_of(cell, k);
+                patch.corners[i][j] = {double3(ends[k]->position),
+                                       change_along<V, F>(*ends[k], place, {cell.step, 0}, known, pixel),
+                                       change_along<V, F>(*ends[k], place, {0, cell.step}, known, pixel)};
+                patch.normal[i][j] = double3(ends[k]->normal);
+                patch.direction[i][j] = double3(ends[k]->direction);
+            }
+        patch.flux = static_cast<F>(mean_density(cell, ends) * T(area_of(cell)));
+        const bool is_seen = blocks_.add(patch, 1, tile_.pieces, visitor());
+        account_.book(patch.flux, is_seen, false);
+    }
+
+    /// The mean over the cell of the quadratic through the nine nodes of its block of 2 × 2 cells [Newton and Cotes:
+    /// weights (5, 8, −1)/12 along each axis]; of the corners where the block is not whole.
+    [[nodiscard]] F mean_density(const Cell& cell, const std::array<const Node*, 4>& ends) const {
+        const std::int64_t step = cell.step;
+        const LatticePlace block{cell.place.i & ~(2 * step - 1), cell.place.j & ~(2 * step - 1)};
+        constexpr std::array<double, 3> weight = {5.0 / 12, 8.0 / 12, -1.0 / 12};
+        F sum = flux_traits<F>::zero();
+        for (std::int64_t j = 0; j < 3; ++j)
+            for (std::int64_t i = 0; i < 3; ++i) {
+                const Node* const node =
+                    end_of<V, F>(nodes_.known({block.i + i * step, block.j + j * step}), ends[0]->signature);
+                if (!node)
+                    return mean_of_corners(ends);
+                const double along_u = weight[std::size_t(cell.place.i == block.i ? i : 2 - i)],
+                             along_v = weight[std::size_t(cell.place.j == block.j ? j : 2 - j)];
+                sum = sum + node->density * T(along_u * along_v);
+            }
+        // Where the density falls to nothing the quadratic may pass it.
+        return flux_traits<F>::power(sum) > 0 ? sum : mean_of_corners(ends);
+    }
+
+    [[nodiscard]] static F mean_of_corners(const std::array<const Node*, 4>& ends) {
+        return static_cast<F>((ends[0]->density + ends[1]->density + (ends[2]->density + ends[3]->density)) * T(0.25));
+    }
+
+    void add_outline(const Cell& cell, const CellOutline<V, F>& outline, double scale) {
+        Double3 normal{}, direction{};
+        F density = flux_traits<F>::zero();
+        double sag = 0, size2 = 0;
+        std::array<Double3, 6> place;
+        for (std::size_t i = 0; i < outline.size; ++i) {
+            const Node& node = outline.points[i].node;
+            place[i] = double3(node.position);
+            normal = normal + double3(node.normal);
+            direction = direction + double3(node.direction);
+            density = density + node.density;
+        }
+        for (std::size_t i = 0; i < outline.size; ++i)
+            for (std::size_t k = 0; k < outline.size; ++k) {
+                sag = (std::max)(sag, std::abs(dot(double3(outline.points[i].node.normal), place[k] - place[i])));
+                size2 = (std::max)(size2, length2(place[k] - place[i]));
+            }
+        normal = unit_or_zero(normal);
+        direction = unit_or_zero(direction);
+        density = static_cast<F>(density * T(1.0 / double(outline.size)));
+        const double pixel = pixels_.pixel_at(place[0]);
+        const double curvature = size2 > 0 ? 2 * sag / size2 : 0;
+        const double thickness = pixel / 50 + 2 * sag + (std::min)(4 * curvature * square(pixel), pixel / 2);
+        for (std::size_t i = 1; i + 1 < outline.size; ++i) {
+            const double area = outline.area(0, i, i + 1) * area_of(cell) * scale;
+            if (!(area > 0))
+                continue;
+            const F flux = static_cast<F>(density * T(area));
+            const bool is_seen = blocks_.add_triangle({place[0], place[i], place[i + 1]}, normal, direction, flux,
+                                                      thickness, tile_.pieces, visitor());
+            account_.book(flux, is_seen, true);
+        }
+    }
+
+    [[nodiscard]] double area_of(const Cell& cell) const {
+        return lattice_.area() * double(cell.step) * double(cell.step);
+    }
+
+    [[nodiscard]] double pixel_about(const std::array<const Node*, 4>& ends) const {
+        for (const Node* const end : ends)
+            if (end)
+                return pixels_.pixel_at(double3(end->position));
+        return 0;
+    }
+
+    [[nodiscard]] auto visitor() {
+        return [this](std::uint32_t leaf, std::uint32_t block) { tile_.visits.push_back({leaf, block}); };
+    }
+
+    const Lattice& lattice_;
+    const ReceiverPixels<V>& pixels_;
+    Nodes& nodes_;
+    TilePieces<V, F>& tile_;
+    SheetAccount& account_;
+    PatchBlocks<V, F> blocks_;
+    std::vector<CellOutline<V, F>> outlines_;
+};
+
+} // namespace nephroid::detail

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+/// @file  Nodes of a chart by whole numbers: the regular ones of a sector, and those that a tile adds between them.
+#pragma once
+
+#include "nephroid/execution/executor.hpp"
+#include "nephroid/sheet/node_end.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// A place on a chart, in steps of the finest lattice.
+struct LatticePlace {
+    std::int64_t i, j;
+
+    friend bool operator==(const LatticePlace&, const LatticePlace&) = default;
+    friend LatticePlace operator+(const LatticePlace& a, const LatticePlace& b) { return {a.i + b.i, a.j + b.j}; }
+    friend LatticePlace operator-(const LatticePlace& a, const LatticePlace& b) { return {a.i - b.i, a.j - b.j}; }
+    friend LatticePlace operator*(std::int64_t s, const LatticePlace& a) { return {s * a.i, s * a.j}; }
+};
+
+/// Cells of a chart, and into how many steps each side is cut at most: bisection and refinement go by halves.
+struct Lattice {
+    static constexpr unsigned bisections = 6;
+
+    std::int64_t cells_u = 0, cells_v = 0; ///< even
+    unsigned levels = 0;                   ///< of refinement
+
+    [[nodiscard]] std::int64_t step() const { return std::int64_t(1) << (levels + bisections); } ///< of a cell
+    [[nodiscard]] double u(const LatticePlace& p) const { return double(p.i) / (double(cells_u) * double(step())); }
+    [[nodiscard]] double v(const LatticePlace& p) const { return double(p.j) / (double(cells_v) * double(step())); }
+    /// Of a square of one step, on the chart.
+    [[nodiscard]] double area() const {
+        return 1 / (double(cells_u) * double(step()) * (double(cells_v) * double(step())));
+    }
+};
+
+/// A rectangle of cells, and of the nodes about it.
+struct CellRange {
+    std::int64_t begin_u, end_u, begin_v, end_v;
+
+    [[nodiscard]] std::int64_t columns() const { return end_u - begin_u; }
+    [[nodiscard]] std::int64_t rows() const { return end_v - begin_v; }
+};
+
+/// The area of the chart around a regular node that it stands for: a cell's, less at the chart's borders; 0 for a node
+/// of the ring about a range, which is another range's.
+[[nodiscard]] inline double area_of_node(const Lattice& lattice, const CellRange& cells, const LatticePlace& place) {
+    const auto share = [step = lattice.step()](std::int64_t at, std::int64_t begin, std::int64_t end,
+                                               std::int64_t all) {
+        const std::int64_t i = at / step;
+        if (i < begin || i > end || (i == end && end != all))
+            return 0.0;
+        return i == 0 || i == all ? 0.5 : 1.0;
+    };
+    return share(place.i, cells.begin_u, cells.end_u, lattice.cells_u) *
+           share(place.j, cells.begin_v, cells.end_v, lattice.cells_v) /
+           (double(lattice.cells_u) * double(lattice.cells_v));
+}
+
+/// The regular nodes of a range of cells and of a ring of two about it, traced by several threads.
+template <Vector3 V, Flux F>
+class NodeGrid {
+public:
+    using Node = NodeEnd<V, F>;
+    static constexpr std::int64_t ring = 2;
+
+    /// @param trace  trace(place, ends, task): appends the ends of a node; called from several threads
+    template <class Trace, class E>
+    void fill(const Lattice& lattice, const CellRange& cells, const Trace& trace, E& executor) {
+        const std::int64_t step = lattice.step();
+        step_ = step;
+        begin_u_ = (std::max)(std::int64_t(0), cells.begin_u - ring);
+        begin_v_ = (std::max)(std::int64_t(0), cells.begin_v - ring);
+        columns_ = (std::min)(lattice.cells_u, cells.end_u + ring) + 1 - begin_u_;
+        rows_ = (std::min)(lattice.cells_v, cells.end_v + ring) + 1 - begin_v_;
+        ranges_.assign(std::size_t(columns_ * rows_), {});
+        // Strips of rows: neighbours one after the other, as their rays meet the same things.
+        const auto tasks_across = std::size_t((columns_ + width - 1) / width),
+                   tasks = tasks_across * std::size_t((rows_ + width - 1) / width);
+        if (pools_.size() < tasks)
+            pools_.resize(tasks);
+        executor(tasks, [&](std::size_t task) {
+            std::vector<Node>& pool = pools_[task];
+            pool.clear();
+            const std::int64_t from_i = std::int64_t(task % tasks_across) * width,
+                               from_j = std::int64_t(task / tasks_across) * width;
+            for (std::int64_t j = from_j; j < (std::min)(rows_, from_j + width); ++j)
+                for (std::int64_t i = from_i; i < (std::min)(columns_, from_i + width); ++i) {
+                    const auto first = std::uint32_t(pool.size());
+                    trace(LatticePlace{(begin_u_ + i) * step, (begin_v_ + j) * step}, pool, task);
+                    ranges_[index(i, j)] = {std::uint32_t(task), first, std::uint32_t(pool.size()) - first};
+                }
+        });
+    }
+
+    /// Whether a place is one of a regular node of this range.
+    [[nodiscard]] bool has(const LatticePlace& p) const {
+        if (((p.i | p.j) & (step_ - 1)) != 0)
+            return false;
+        const std::int64_t i = p.i / step_ - begin_u_, j = p.j / step_ - begin_v_;
+        return i >= 0 && j >= 0 && i < columns_ && j < rows_;
+    }
+
+    [[nodiscard]] NodeEnds<V, F> operator[](const LatticePlace& p) const {
+        const Range& range = ranges_[index(p.i / step_ - begin_u_, p.j / step_ - begin_v_)];
+        return {pools_[range.pool].data() + range.first, range.size};
+    }
+
+    [[nodiscard]] std::size_t size() const { return ranges_.size(); }
+
+private:
+    static constexpr std::int64_t width = 16;
+
+    struct Range {
+        std::uint32_t pool, first, size;
+    };
+
+    [[nodiscard]] std::size_t index(std::int64_t i, std::int64_t j) const { return std::size_t(j * columns_ + i); }
+
+    std::int64_t step_ = 1, begin_u_ = 0, begin_v_ = 0, columns_ = 0, rows_ = 0;
+    std::vector<Range> ranges_;
+    std::vector<std::vector<Node>> pools_;
+};
+
+/// The nodes that one tile sees: those of the grid, and its own, traced when they are first asked for.
+template <Vector3 V, Flux F, class Trace>
+class NodeCache {
+public:
+    using Node = NodeEnd<V, F>;
+
+    /// @param trace  trace(place, ends): appends the ends of a node
+    NodeCache(const NodeGrid<V, F>& grid, const Lattice& lattice, Trace trace)
+        : grid_(grid), lattice_(lattice), trace_(std::move(trace)) {}
+
+    /// The ends of a node, which is traced if it was not; none beyond the chart.
+    [[nodiscard]] NodeEnds<V, F> at(const LatticePlace& p) {
+        if (!is_inside(p))
+            return {};
+        if (grid_.has(p))
+            return grid_[p];
+        const auto [found, is_new] = own_.try_emplace(key(p));
+        if (is_new)
+            trace_(p, found->second);
+        return found->second;
+    }
+
+    /// The ends of a node that has been traced; none of others.
+    [[nodiscard]] NodeEnds<V, F> known(const LatticePlace& p) const {
+        if (!is_inside(p))
+            return {};
+        if (grid_.has(p))
+            return grid_[p];
+        const auto found = own_.find(key(p));
+        return found == own_.end() ? NodeEnds<V, F>{} : NodeEnds<V, F>(found->second);
+    }
+
+    [[nodiscard]] std::size_t added() const { return own_.size(); }
+
+private:
+    [[nodiscard]] bool is_inside(const LatticePlace& p) const {
+        return p.i >= 0 && p.j >= 0 && p.i <= lattice_.cells_u * lattice_.step() &&
+               p.j <= lattice_.cells_v * lattice_.step();
+    }
+
+    [[nodiscard]] static std::uint64_t key(const LatticePlace& p) {
+        return static_cast<std::uint64_t>(p.i) << 32 ^ static_cast<std::uint64_t>(p.j);
+    }
+
+    struct Scatter {
+        [[nodiscard]] std::size_t operator()(std::uint64_t k) const {
+            return static_cast<std::size_t>((k ^ k >> 29) * 0x9e3779b97f4a7c15u >> 7);
+        }
+    };
+
+    const NodeGrid<V, F>& grid_;
+    const Lattice& lattice_;
+    Trace trace_;
+    std::unordered_map<std::uint64_t, std::vector<Node>, Scatter> own_; ///< its elements stay where they are
+};
+
+} // namespace nephroid::detail

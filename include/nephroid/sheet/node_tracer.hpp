@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+/// @file  Traces the photon of a point of a chart: all its paths, to where they end.
+#pragma once
+
+#include "nephroid/emission/chart/emission_chart.hpp"
+#include "nephroid/sheet/node_end.hpp"
+#include "nephroid/transport/walk.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// Gives a scene a number where it asks for chance, and notes that it did: its paths are then no function of where
+/// they begin.
+struct NoChance {
+    bool is_asked = false;
+
+    template <class T>
+    [[nodiscard]] T next() {
+        is_asked = true;
+        return T(0.5);
+    }
+};
+
+/// What tracing nodes found beside their ends.
+struct TracedNodes {
+    Statistics account;          ///< of the nodes' shares of the light
+    double landed = 0;           ///< flux of those shares that ended on a receiver
+    std::uint64_t by_chance = 0; ///< nodes whose scene drew a random number
+
+    /// Books a photon whose flux was a density, as that of an area of the chart.
+    void add(const Statistics& one, double landed_density, double area) {
+        account.rays += one.rays;
+        account.specular_events += one.specular_events;
+        account.corrected_normals += one.corrected_normals;
+        if (!(area > 0))
+            return;
+        account.emitted.photons += one.emitted.photons;
+        account.emitted.add(area * one.emitted.flux);
+        for (std::size_t i = 0; i < fate_count; ++i) {
+            account.fates[i].photons += one.fates[i].photons;
+            account.fates[i].add(area * one.fates[i].flux);
+        }
+        landed += area * landed_density;
+    }
+};
+
+/// Appends the ends of the paths of a node.
+///
+/// @param area    of the chart that the node stands for in the account; 0 for one that only refines
+/// @param origin  of the receiver
+template <class S, Vector3 V, Flux F>
+void trace_node(const S& scene, const EmissionChart<V, F>& chart, scalar_t<V> u, scalar_t<V> v, double area,
+                const V& origin, const WalkLimits& limits, std::vector<NodeEnd<V, F>>& ends, TracedNodes& traced) {
+    // A target is often as wide as its chart: a photon from the very border would miss it by rounding.
+    const scalar_t<V> margin = scalar_t<V>(32) * std::numeric_limits<scalar_t<V>>::epsilon();
+    const auto inside = [margin](scalar_t<V> x) { return std::clamp(x, margin, scalar_t<V>(1) - margin); };
+    const auto emitted = chart.emit(inside(u), inside(v));
+    if (!emitted)
+        return;
+    NoChance sampler;
+    PathSignature signature;
+    WalkLimits all = limits;
+    all.roulette_after = (std::numeric_limits<unsigned>::max)();
+    Photon<V, F, 0> photon{emitted->position, emitted->direction, emitted->flux, {}};
+    Statistics one;
+    const auto deposit = walk(scene, std::move(photon), sampler, all, one, signature);
+    traced.add(one, deposit ? flux_traits<F>::power(deposit->flux) : 0, area);
+    traced.by_chance += sampler.is_asked;
+    if (deposit)
+        ends.push_back(
+            {deposit->position - origin, deposit->normal, deposit->direction, deposit->flux, signature.value()});
+}
+
+} // namespace nephroid::detail

@@ -1,0 +1,294 @@
+// SPDX-License-Identifier: MIT
+/// @file  A patch of light becomes blocks of flat quads, those near the receiver's vertices.
+#pragma once
+
+#include "nephroid/sheet/block_edges.hpp"
+#include "nephroid/sheet/hermite_patch.hpp"
+#include "nephroid/sheet/tessellation.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace nephroid::detail {
+
+/// Light on a patch: a cell whose four photons went the same way.
+template <Vector3 V, Flux F>
+struct LitPatch {
+    PatchCorners corners;
+    std::array<std::array<Double3, 2>, 2> normal;    ///< of the receiver, on the light's side, unit
+    std::array<std::array<Double3, 2>, 2> direction; ///< of flight, unit
+    F flux;
+};
+
+/// How a patch lies on its receiver.
+struct PatchSag {
+    double sag;       ///< how far corners lie above the tangent planes of others, the furthest
+    double curvature; ///< 2 sag over the square of the longer diagonal
+
+    template <Vector3 V, Flux F>
+    explicit PatchSag(const LitPatch<V, F>& patch) : sag(0) {
+        const auto& c = patch.corners;
+        for (std::size_t k = 0; k < 4; ++k)
+            for (std::size_t l = 0; l < 4; ++l)
+                sag = (std::max)(sag, std::abs(dot(patch.normal[k / 2][k % 2],
+                                                   c[l / 2][l % 2].position - c[k / 2][k % 2].position)));
+        const double diagonal2 =
+            (std::max)(length2(c[1][1].position - c[0][0].position), length2(c[1][0].position - c[0][1].position));
+        curvature = diagonal2 > 0 ? 2 * sag / diagonal2 : 0;
+    }
+
+    /// How near to a quad a vertex must be to lie on its surface, world units: a fiftieth of a pixel where the receiver
+    /// is flat, so that shelves stay apart; what it bends by over a quad and a pixel besides.
+    [[nodiscard]] double thickness(double pixel, unsigned quads) const {
+        return pixel / 50 + 2 * sag / quads + (std::min)(4 * curvature * pixel * pixel, pixel / 2);
+    }
+
+    /// Whether a block of quads may be drawn as if it lay in one plane.
+    [[nodiscard]] bool is_flat(double pixel) const { return sag <= pixel / 100; }
+};
+
+/// Cuts patches up. Keeps no state but scratch memory.
+template <Vector3 V, Flux F>
+class PatchBlocks {
+public:
+    using T = scalar_t<V>;
+
+    PatchBlocks(const ReceiverPixels<V>& pixels, const Tessellation& rule) : pixels_(pixels), rule_(rule) {}
+
+    /// @param tolerance  by which the rule's tolerances grow where light is dim, >= 1
+    /// @param visit  visit(leaf, block number): for every leaf of the receiver that a block of it may light
+    /// @return  whether there was one
+    template <class Visit>
+    bool add(const LitPatch<V, F>& patch, double tolerance, SheetPieces<V, F>& pieces, const Visit& visit) {
+        const PatchSag sag(patch);
+        const double most = pixels_.largest_pixel();
+        const Box<double> reach =
+            grown(bounds_of(patch.corners),
+                  2 * sag.sag + 0.02 * most + (std::min)(4 * sag.curvature * most * most, most / 2));
+        if (!leaves_in(reach))
+            return false;
+        const Double3 normal =
+            unit_or_zero((patch.normal[0][0] + patch.normal[0][1]) + (patch.normal[1][0] + patch.normal[1][1]));
+        const PatchShape shape = shape_of(patch.corners, normal);
+        const unsigned m = quads_along(shape, rule_, pixel_, tolerance);
+        const bool is_flat = sag.is_flat(pixel_);
+        const unsigned blocks = is_flat ? (m + 3) / 4 : m;
+        const HermitePatch surface(patch.corners);
+        const double bulge = 6 * shape.bend / (double(blocks) * blocks); // of a block beyond its corners
+        thickness_ = sag.thickness(pixel_, m);
+        bool is_seen = false;
+        for (unsigned bj = 0; bj < blocks; ++bj)
+            for (unsigned bi = 0; bi < blocks; ++bi) {
+                const Range u{bi * m / blocks, (bi + 1) * m / blocks}, v{bj * m / blocks, (bj + 1) * m / blocks};
+                if (blocks > 1 && !touches(surface, u, v, m, bulge))
+                    continue;
+                const double mid_u = 0.5 * (u.begin + u.end) / m, mid_v = 0.5 * (v.begin + v.end) / m;
+                is_seen |= add_block(patch, surface, u, v, m,
+                                     is_flat ? normal : unit_or_zero(bilinear(patch.normal, mid_u, mid_v)),
+                                     unit_or_zero(bilinear(patch.direction, mid_u, mid_v)), pieces, visit);
+            }
+        return is_seen;
+    }
+
+    /// A flat triangle by itself: of what is left of a cut cell.
+    template <class Visit>
+    bool add_triangle(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
+                      double thickness, SheetPieces<V, F>& pieces, const Visit& visit) {
+        Box<double> box{{corners[0].x, corners[0].y, corners[0].z}, {corners[0].x, corners[0].y, corners[0].z}};
+        for (const Double3& c : corners)
+            include(box, c);
+        if (!leaves_in(grown(box, thickness)))
+            return false;
+        thickness_ = thickness > 0 ? thickness : pixel_ / 50;
+        return add_loose(corners, normal, direction, flux, pieces, visit);
+    }
+
+private:
+    struct Range {
+        unsigned begin, end;
+    };
+
+    static void include(Box<double>& box, const Double3& p) {
+        const std::array<double, 3> c{p.x, p.y, p.z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            box.low[axis] = (std::min)(box.low[axis], c[axis]);
+            box.high[axis] = (std::max)(box.high[axis], c[axis]);
+        }
+    }
+
+    [[nodiscard]] static Box<double> grown(Box<double> box, double by) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            box.low[axis] -= by, box.high[axis] += by;
+        return box;
+    }
+
+    [[nodiscard]] static Box<T> narrow(const Box<double>& box) {
+        return {{T(box.low[0]), T(box.low[1]), T(box.low[2])}, {T(box.high[0]), T(box.high[1]), T(box.high[2])}};
+    }
+
+    /// About the control points of the patch as a Bézier surface: it lies in their hull.
+    [[nodiscard]] static Box<double> bounds_of(const PatchCorners& c) {
+        const Double3& first = c[0][0].position;
+        Box<double> box{{first.x, first.y, first.z}, {first.x, first.y, first.z}};
+        for (std::size_t i = 0; i < 2; ++i)
+            for (std::size_t j = 0; j < 2; ++j) {
+                const Double3 u = (i == 0 ? 1 / 3.0 : -1 / 3.0) * c[i][j].along_u,
+                              v = (j == 0 ? 1 / 3.0 : -1 / 3.0) * c[i][j].along_v;
+                const Double3 both = (i == j ? 1 / 9.0 : -1 / 9.0) * adini_twist(c, i, j);
+                include(box, c[i][j].position);
+                include(box, c[i][j].position + u);
+                include(box, c[i][j].position + v);
+                include(box, c[i][j].position + (u + v) + both);
+            }
+        return box;
+    }
+
+    template <class Corners>
+    [[nodiscard]] static Double3 bilinear(const Corners& at, double u, double v) {
+        return (1 - v) * ((1 - u) * at[0][0] + u * at[1][0]) + v * ((1 - u) * at[0][1] + u * at[1][1]);
+    }
+
+    /// Finds the leaves that a box reaches, and the smallest pixel there.
+    bool leaves_in(const Box<double>& box) {
+        leaves_.clear();
+        T pixel = std::numeric_limits<T>::infinity();
+        pixels_.visit_leaves(narrow(box), [&](std::uint32_t leaf) {
+            leaves_.push_back(leaf);
+            pixel = (std::min)(pixel, pixels_.leaves()[leaf].pixel);
+        });
+        pixel_ = double(pixel);
+        return !leaves_.empty();
+    }
+
+    /// Whether a block may reach the receiver's bounds.
+    [[nodiscard]] bool touches(const HermitePatch& surface, const Range& u, const Range& v, unsigned m,
+                               double bulge) const {
+        const auto low = surface.curve_at(double(v.begin) / m), high = surface.curve_at(double(v.end) / m);
+        const double from = double(u.begin) / m, to = double(u.end) / m;
+        const Double3 first = HermitePatch::on(low, from);
+        Box<double> box{{first.x, first.y, first.z}, {first.x, first.y, first.z}};
+        include(box, HermitePatch::on(low, to));
+        include(box, HermitePatch::on(high, from));
+        include(box, HermitePatch::on(high, to));
+        return narrow(grown(box, bulge + thickness_)).overlaps(pixels_.bounds());
+    }
+
+    template <class Visit>
+    bool add_block(const LitPatch<V, F>& patch, const HermitePatch& surface, const Range& u, const Range& v, unsigned m,
+                   const Double3& normal, const Double3& direction, SheetPieces<V, F>& pieces, const Visit& visit) {
+        QuadGrid grid;
+        grid.columns = u.end - u.begin, grid.rows = v.end - v.begin;
+        grid.share = 1.0 / (double(m) * m);
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        Box<double> box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+        for (std::size_t j = 0; j <= grid.rows; ++j) {
+            const auto curve = surface.curve_at(double(v.begin + j) / m);
+            for (std::size_t i = 0; i <= grid.columns; ++i) {
+                grid.corner[j][i] = HermitePatch::on(curve, double(u.begin + i) / m);
+                include(box, grid.corner[j][i]);
+            }
+        }
+        if (!may_light(grown(box, thickness_)))
+            return false;
+
+        SheetBlock<V, F> block{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            block.middle[axis] = T(0.5 * (box.low[axis] + box.high[axis]));
+        const Double3 middle{double(block.middle[0]), double(block.middle[1]), double(block.middle[2])};
+        const Frame<Double3> plane = frame_about(normal);
+        // Rounded once, and shared: what one quad loses its neighbour gets.
+        for (std::size_t j = 0; j <= grid.rows; ++j)
+            for (std::size_t i = 0; i <= grid.columns; ++i) {
+                const Double3 c = grid.corner[j][i] - middle;
+                grid.corner[j][i] = {double(T(c.x)), double(T(c.y)), double(T(c.z))};
+                grid.in_plane[j][i] = {dot(grid.corner[j][i], plane.u), dot(grid.corner[j][i], plane.v)};
+            }
+        block.box = narrow(grown(box, 0));
+        block.normal = {T(normal.x), T(normal.y), T(normal.z)};
+        block.thickness = T(thickness_);
+        set_sides(block, grid, normal);
+        block.flux = patch.flux;
+        block.direction = make_vector<V>(T(direction.x), T(direction.y), T(direction.z));
+
+        bool is_seen = false;
+        BlockEdges<T> edges(grid, pixel_, [&](const auto& a, const auto& b, const auto& c, double share) {
+            is_seen |= add_loose(
+                {middle + grid.corner[a[0]][a[1]], middle + grid.corner[b[0]][b[1]], middle + grid.corner[c[0]][c[1]]},
+                normal, direction, F(patch.flux * T(share)), pieces, visit);
+        });
+        block.first = std::uint32_t(pieces.edges.size());
+        edges.append_to(pieces.edges);
+        block.size = std::uint32_t(pieces.edges.size()) - block.first;
+        block.doubtful = T(17) * std::numeric_limits<T>::epsilon() * T(edges.largest());
+        return block.size > 0 ? pass_on(block, pieces, visit) : is_seen;
+    }
+
+    /// Lies every leaf beside the box?
+    [[nodiscard]] bool may_light(const Box<double>& box) const {
+        const Box<T> reach = narrow(box);
+        return std::any_of(leaves_.begin(), leaves_.end(),
+                           [&](std::uint32_t leaf) { return pixels_.leaves()[leaf].box.overlaps(reach); });
+    }
+
+    static void set_sides(SheetBlock<V, F>& block, const QuadGrid& grid, const Double3& normal) {
+        const auto& c = grid.corner;
+        const std::size_t rows = grid.rows, columns = grid.columns;
+        const std::array<Double3, 2> sides = {(c[0][columns] - c[0][0]) + (c[rows][columns] - c[rows][0]),
+                                              (c[rows][0] - c[0][0]) + (c[rows][columns] - c[0][columns])};
+        for (std::size_t k = 0; k < 2; ++k) {
+            const Double3 axis = unit_or_zero(plain_cross(normal, sides[k]));
+            double low = 0, high = 0;
+            for (std::size_t j = 0; j <= rows; ++j)
+                for (std::size_t i = 0; i <= columns; ++i) {
+                    const double x = dot(axis, c[j][i]);
+                    low = (std::min)(low, x), high = (std::max)(high, x);
+                }
+            block.across[k] = {T(axis.x), T(axis.y), T(axis.z)};
+            block.low[k] = T(low), block.high[k] = T(high);
+        }
+    }
+
+    template <class Visit>
+    bool add_loose(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
+                   SheetPieces<V, F>& pieces, const Visit& visit) {
+        SheetBlock<V, F> block{};
+        Box<double> box{{corners[0].x, corners[0].y, corners[0].z}, {corners[0].x, corners[0].y, corners[0].z}};
+        for (const Double3& c : corners)
+            include(box, c);
+        block.box = narrow(box);
+        block.middle = {T(corners[0].x), T(corners[0].y), T(corners[0].z)};
+        block.normal = {T(normal.x), T(normal.y), T(normal.z)};
+        block.thickness = T(thickness_);
+        block.flux = flux;
+        block.direction = make_vector<V>(T(direction.x), T(direction.y), T(direction.z));
+        block.first = std::uint32_t(pieces.triangles.size());
+        pieces.triangles.push_back(corners);
+        return pass_on(block, pieces, visit);
+    }
+
+    template <class Visit>
+    bool pass_on(const SheetBlock<V, F>& block, SheetPieces<V, F>& pieces, const Visit& visit) const {
+        const auto number = std::uint32_t(pieces.blocks.size());
+        Box<T> box = block.box;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            box.low[axis] = box.low[axis] - block.thickness, box.high[axis] = box.high[axis] + block.thickness;
+        bool is_seen = false;
+        for (const std::uint32_t leaf : leaves_)
+            if (pixels_.leaves()[leaf].box.overlaps(box)) {
+                visit(leaf, number);
+                is_seen = true;
+            }
+        if (is_seen)
+            pieces.blocks.push_back(block);
+        return is_seen;
+    }
+
+    const ReceiverPixels<V>& pixels_;
+    const Tessellation& rule_;
+    std::vector<std::uint32_t> leaves_; ///< that the patch at hand may light
+    double pixel_ = 0, thickness_ = 0;
+};
+
+} // namespace nephroid::detail

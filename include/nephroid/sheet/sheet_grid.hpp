@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/// @file  How many cells each chart gets, and the order in which they are drawn: sectors, and tiles in them.
+#pragma once
+
+#include "nephroid/emission/chart/emission_chart.hpp"
+#include "nephroid/pass/photon_pass.hpp"
+#include "nephroid/sheet/node_lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// Shares the pass's photons among charts by power; the cells of each are about square, and even in number.
+template <Vector3 V, Flux F>
+[[nodiscard]] std::vector<Lattice> lattices_of(const EmissionCharts<V, F>& charts, const PhotonPass& pass,
+                                               unsigned levels) {
+    double power = 0;
+    for (const auto& chart : charts)
+        power += chart.power;
+    std::vector<Lattice> lattices;
+    for (const auto& chart : charts) {
+        const double nodes = power > 0 ? double(pass.count) * chart.power / power : 0;
+        const double shape = std::sqrt(chart.width / chart.height);
+        const auto even = [](double cells) {
+            return (std::max)(std::int64_t(2), std::int64_t(std::floor(0.5 * cells + 1e-9)) * 2);
+        };
+        // (cells_u + 1) (cells_v + 1) nodes at most.
+        const double side = std::sqrt((std::max)(nodes, 1.0));
+        const std::int64_t columns = even(side * shape - 1);
+        lattices.push_back({columns, even(nodes / double(columns + 1) - 1), levels});
+    }
+    return lattices;
+}
+
+/// A chart's cells in squares whose nodes are kept at a time.
+[[nodiscard]] inline std::vector<CellRange> sectors_of(const Lattice& lattice) {
+    constexpr std::int64_t side = 512;
+    std::vector<CellRange> sectors;
+    for (std::int64_t v = 0; v < lattice.cells_v; v += side)
+        for (std::int64_t u = 0; u < lattice.cells_u; u += side)
+            sectors.push_back({u, (std::min)(u + side, lattice.cells_u), v, (std::min)(v + side, lattice.cells_v)});
+    return sectors;
+}
+
+/// A sector in tiles, along a Z-shaped curve [Morton 1966].
+[[nodiscard]] inline std::vector<CellRange> tiles_of(const CellRange& sector) {
+    constexpr std::int64_t side = 16;
+    const auto spread = [](std::uint32_t x) {
+        x = (x | x << 4) & 0x0f0f0f0fu;
+        x = (x | x << 2) & 0x33333333u;
+        return (x | x << 1) & 0x55555555u;
+    };
+    std::vector<std::pair<std::uint32_t, CellRange>> tiles;
+    for (std::int64_t v = sector.begin_v; v < sector.end_v; v += side)
+        for (std::int64_t u = sector.begin_u; u < sector.end_u; u += side) {
+            const auto i = std::uint32_t((u - sector.begin_u) / side), j = std::uint32_t((v - sector.begin_v) / side);
+            tiles.push_back({spread(i) | spread(j) << 1,
+                             {u, (std::min)(u + side, sector.end_u), v, (std::min)(v + side, sector.end_v)}});
+        }
+    std::sort(tiles.begin(), tiles.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    std::vector<CellRange> in_order;
+    for (const auto& tile : tiles)
+        in_order.push_back(tile.second);
+    return in_order;
+}
+
+} // namespace nephroid::detail
