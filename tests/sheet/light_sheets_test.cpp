@@ -2,6 +2,7 @@
 #include "nephroid/sheet/light_sheets.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>

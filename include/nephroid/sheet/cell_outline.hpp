@@ -52,7 +52,7 @@ public:
     ///
     /// @param place     of the cell's first corner
     /// @param step      of its sides
-    /// @param corner    its corners' ends with the signature, counter-clockwise from the first; null where there is none
+    /// @param corner    its corners' ends with the signature, counter-clockwise from the first; null where none is
     /// @param is_joined whether corners k and k + 1 are neighbours on one sheet
     template <class Visit>
     void visit_pieces(const LatticePlace& place, std::int64_t step, const std::array<const Node*, 4>& corner,

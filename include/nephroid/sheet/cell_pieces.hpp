@@ -7,6 +7,7 @@
 #include "nephroid/sheet/patch_blocks.hpp"
 #include "nephroid/sheet/refine.hpp"
 #include "nephroid/sheet/sheet_account.hpp"
+#include "nephroid/sheet/tile_pieces.hpp"
 
 #include <array>
 #include <cstddef>
@@ -14,23 +15,6 @@
 #include <vector>
 
 namespace nephroid::detail {
-
-/// A leaf of the receiver, and a block that it is to be lit by.
-struct BlockVisit {
-    std::uint32_t leaf, block;
-};
-
-/// What a tile sends to the receiver, in the order of its cells.
-template <Vector3 V, Flux F>
-struct TilePieces {
-    SheetPieces<V, F> pieces;
-    std::vector<BlockVisit> visits;
-
-    void clear() {
-        pieces.clear();
-        visits.clear();
-    }
-};
 
 /// Draws the cells of one tile.
 ///

@@ -9,7 +9,8 @@
 namespace nephroid::detail {
 
 /// The change of place over one step along an axis of the lattice, world units: the central difference where both
-/// neighbours are on the sheet, the three-point one-sided one, (−3 x₀ + 4 x₁ − x₂)/2, where one is, zero where none is.
+/// neighbours are on the sheet, the three-point one-sided one, (−3 x₀ + 4 x₁ − x₂)/2, where one is, else
+/// zero.
 ///
 /// Where the two sides differ by more than four times and more than two pixels there is a crease that nothing else
 /// tells of: then the shorter side's.

@@ -54,7 +54,7 @@ template <class R>
     return (c[1].s - c[0].s) * (c[2].t - c[0].t) - (c[2].s - c[0].s) * (c[1].t - c[0].t);
 }
 
-/// The share of a triangle's area that lies in the unit square, 0 to 1. A triangle all but without area (below 10⁻¹⁰,
+/// The share of a triangle's area that lies in the unit square, 0 to 1. One all but without area (below 10⁻¹⁰,
 /// or 10⁻⁹ of its longest side squared) is taken for points along its longest side.
 template <class R>
 [[nodiscard]] R covered_share(const std::array<FootprintPlace<R>, 3>& c) {

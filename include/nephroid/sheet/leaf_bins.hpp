@@ -3,7 +3,7 @@
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
-#include "nephroid/sheet/cell_pieces.hpp"
+#include "nephroid/sheet/tile_pieces.hpp"
 
 #include <algorithm>
 #include <bit>

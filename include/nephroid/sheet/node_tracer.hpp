@@ -25,6 +25,19 @@ struct NoChance {
     }
 };
 
+/// Visits every end of a photon's ways.
+template <Vector3 V, Flux F, class Land>
+struct EndsOfAllWays {
+    using trail = PathSignature;
+    static constexpr bool follows_all_ways = true;
+
+    const Land& land; ///< land(deposit, signature)
+
+    void deposit(const Deposit<V, F, 0>& deposit, const WalkedPath<PathSignature>& path) const {
+        land(deposit, path.trail.value());
+    }
+};
+
 /// What tracing nodes found beside their ends.
 struct TracedNodes {
     Statistics account;          ///< of the nodes' shares of the light
@@ -62,17 +75,24 @@ void trace_node(const S& scene, const EmissionChart<V, F>& chart, scalar_t<V> u,
     if (!emitted)
         return;
     NoChance sampler;
-    PathSignature signature;
-    WalkLimits all = limits;
-    all.roulette_after = (std::numeric_limits<unsigned>::max)();
-    Photon<V, F, 0> photon{emitted->position, emitted->direction, emitted->flux, {}};
     Statistics one;
-    const auto deposit = walk(scene, std::move(photon), sampler, all, one, signature);
-    traced.add(one, deposit ? flux_traits<F>::power(deposit->flux) : 0, area);
-    traced.by_chance += sampler.is_asked;
-    if (deposit)
-        ends.push_back(
-            {deposit->position - origin, deposit->normal, deposit->direction, deposit->flux, signature.value()});
+    double landed = 0;
+    const auto land = [&](const Deposit<V, F, 0>& deposit, std::uint32_t signature) {
+        landed += flux_traits<F>::power(deposit.flux);
+        ends.push_back({deposit.position - origin, deposit.normal, deposit.direction, deposit.flux, signature});
+    };
+    Photon<V, F, 0> photon{emitted->position, emitted->direction, emitted->flux, {}};
+    if constexpr (TellsAllWays<S, V>) {
+        walk(scene, std::move(photon), sampler, limits, one, EndsOfAllWays<V, F, decltype(land)>{land});
+    } else {
+        WalkLimits without_roulette = limits;
+        without_roulette.roulette_after = (std::numeric_limits<unsigned>::max)();
+        PathSignature signature;
+        if (const auto deposit = walk(scene, std::move(photon), sampler, without_roulette, one, signature))
+            land(*deposit, signature.value());
+    }
+    traced.add(one, landed, area);
+    traced.by_chance += std::uint64_t(sampler.is_asked);
 }
 
 } // namespace nephroid::detail

@@ -3,51 +3,18 @@
 #pragma once
 
 #include "nephroid/sheet/block_edges.hpp"
-#include "nephroid/sheet/hermite_patch.hpp"
+#include "nephroid/sheet/lit_patch.hpp"
+#include "nephroid/sheet/patch_bounds.hpp"
 #include "nephroid/sheet/tessellation.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
 
 namespace nephroid::detail {
-
-/// Light on a patch: a cell whose four photons went the same way.
-template <Vector3 V, Flux F>
-struct LitPatch {
-    PatchCorners corners;
-    std::array<std::array<Double3, 2>, 2> normal;    ///< of the receiver, on the light's side, unit
-    std::array<std::array<Double3, 2>, 2> direction; ///< of flight, unit
-    F flux;
-};
-
-/// How a patch lies on its receiver.
-struct PatchSag {
-    double sag;       ///< how far corners lie above the tangent planes of others, the furthest
-    double curvature; ///< 2 sag over the square of the longer diagonal
-
-    template <Vector3 V, Flux F>
-    explicit PatchSag(const LitPatch<V, F>& patch) : sag(0) {
-        const auto& c = patch.corners;
-        for (std::size_t k = 0; k < 4; ++k)
-            for (std::size_t l = 0; l < 4; ++l)
-                sag = (std::max)(sag, std::abs(dot(patch.normal[k / 2][k % 2],
-                                                   c[l / 2][l % 2].position - c[k / 2][k % 2].position)));
-        const double diagonal2 =
-            (std::max)(length2(c[1][1].position - c[0][0].position), length2(c[1][0].position - c[0][1].position));
-        curvature = diagonal2 > 0 ? 2 * sag / diagonal2 : 0;
-    }
-
-    /// How near to a quad a vertex must be to lie on its surface, world units: a fiftieth of a pixel where the receiver
-    /// is flat, so that shelves stay apart; what it bends by over a quad and a pixel besides.
-    [[nodiscard]] double thickness(double pixel, unsigned quads) const {
-        return pixel / 50 + 2 * sag / quads + (std::min)(4 * curvature * pixel * pixel, pixel / 2);
-    }
-
-    /// Whether a block of quads may be drawn as if it lay in one plane.
-    [[nodiscard]] bool is_flat(double pixel) const { return sag <= pixel / 100; }
-};
 
 /// Cuts patches up. Keeps no state but scratch memory.
 template <Vector3 V, Flux F>
@@ -96,7 +63,7 @@ public:
     template <class Visit>
     bool add_triangle(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
                       double thickness, SheetPieces<V, F>& pieces, const Visit& visit) {
-        Box<double> box{{corners[0].x, corners[0].y, corners[0].z}, {corners[0].x, corners[0].y, corners[0].z}};
+        Box<double> box = box_about(corners[0]);
         for (const Double3& c : corners)
             include(box, c);
         if (!leaves_in(grown(box, thickness)))
@@ -110,41 +77,6 @@ private:
         unsigned begin, end;
     };
 
-    static void include(Box<double>& box, const Double3& p) {
-        const std::array<double, 3> c{p.x, p.y, p.z};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.low[axis] = (std::min)(box.low[axis], c[axis]);
-            box.high[axis] = (std::max)(box.high[axis], c[axis]);
-        }
-    }
-
-    [[nodiscard]] static Box<double> grown(Box<double> box, double by) {
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            box.low[axis] -= by, box.high[axis] += by;
-        return box;
-    }
-
-    [[nodiscard]] static Box<T> narrow(const Box<double>& box) {
-        return {{T(box.low[0]), T(box.low[1]), T(box.low[2])}, {T(box.high[0]), T(box.high[1]), T(box.high[2])}};
-    }
-
-    /// About the control points of the patch as a Bézier surface: it lies in their hull.
-    [[nodiscard]] static Box<double> bounds_of(const PatchCorners& c) {
-        const Double3& first = c[0][0].position;
-        Box<double> box{{first.x, first.y, first.z}, {first.x, first.y, first.z}};
-        for (std::size_t i = 0; i < 2; ++i)
-            for (std::size_t j = 0; j < 2; ++j) {
-                const Double3 u = (i == 0 ? 1 / 3.0 : -1 / 3.0) * c[i][j].along_u,
-                              v = (j == 0 ? 1 / 3.0 : -1 / 3.0) * c[i][j].along_v;
-                const Double3 both = (i == j ? 1 / 9.0 : -1 / 9.0) * adini_twist(c, i, j);
-                include(box, c[i][j].position);
-                include(box, c[i][j].position + u);
-                include(box, c[i][j].position + v);
-                include(box, c[i][j].position + (u + v) + both);
-            }
-        return box;
-    }
-
     template <class Corners>
     [[nodiscard]] static Double3 bilinear(const Corners& at, double u, double v) {
         return (1 - v) * ((1 - u) * at[0][0] + u * at[1][0]) + v * ((1 - u) * at[0][1] + u * at[1][1]);
@@ -154,7 +86,7 @@ private:
     bool leaves_in(const Box<double>& box) {
         leaves_.clear();
         T pixel = std::numeric_limits<T>::infinity();
-        pixels_.visit_leaves(narrow(box), [&](std::uint32_t leaf) {
+        pixels_.visit_leaves(narrowed_box<T>(box), [&](std::uint32_t leaf) {
             leaves_.push_back(leaf);
             pixel = (std::min)(pixel, pixels_.leaves()[leaf].pixel);
         });
@@ -168,11 +100,11 @@ private:
         const auto low = surface.curve_at(double(v.begin) / m), high = surface.curve_at(double(v.end) / m);
         const double from = double(u.begin) / m, to = double(u.end) / m;
         const Double3 first = HermitePatch::on(low, from);
-        Box<double> box{{first.x, first.y, first.z}, {first.x, first.y, first.z}};
+        Box<double> box = box_about(first);
         include(box, HermitePatch::on(low, to));
         include(box, HermitePatch::on(high, from));
         include(box, HermitePatch::on(high, to));
-        return narrow(grown(box, bulge + thickness_)).overlaps(pixels_.bounds());
+        return narrowed_box<T>(grown(box, bulge + thickness_)).overlaps(pixels_.bounds());
     }
 
     template <class Visit>
@@ -205,7 +137,7 @@ private:
                 grid.corner[j][i] = {double(T(c.x)), double(T(c.y)), double(T(c.z))};
                 grid.in_plane[j][i] = {dot(grid.corner[j][i], plane.u), dot(grid.corner[j][i], plane.v)};
             }
-        block.box = narrow(grown(box, 0));
+        block.box = narrowed_box<T>(grown(box, 0));
         block.normal = {T(normal.x), T(normal.y), T(normal.z)};
         block.thickness = T(thickness_);
         set_sides(block, grid, normal);
@@ -227,7 +159,7 @@ private:
 
     /// Lies every leaf beside the box?
     [[nodiscard]] bool may_light(const Box<double>& box) const {
-        const Box<T> reach = narrow(box);
+        const Box<T> reach = narrowed_box<T>(box);
         return std::any_of(leaves_.begin(), leaves_.end(),
                            [&](std::uint32_t leaf) { return pixels_.leaves()[leaf].box.overlaps(reach); });
     }
@@ -254,10 +186,10 @@ private:
     bool add_loose(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
                    SheetPieces<V, F>& pieces, const Visit& visit) {
         SheetBlock<V, F> block{};
-        Box<double> box{{corners[0].x, corners[0].y, corners[0].z}, {corners[0].x, corners[0].y, corners[0].z}};
+        Box<double> box = box_about(corners[0]);
         for (const Double3& c : corners)
             include(box, c);
-        block.box = narrow(box);
+        block.box = narrowed_box<T>(box);
         block.middle = {T(corners[0].x), T(corners[0].y), T(corners[0].z)};
         block.normal = {T(normal.x), T(normal.y), T(normal.z)};
         block.thickness = T(thickness_);

@@ -5,7 +5,7 @@
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
 #include "nephroid/sheet/double3.hpp"
-#include "nephroid/vector/frame.hpp"
+#include "nephroid/sheet/pixel_group.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,44 +19,7 @@
 
 namespace nephroid {
 
-/// The parallelogram around a vertex over which its pixel sees the surface: ± half of each side from its middle.
-template <Vector3 V>
-struct PixelFootprint {
-    V side_u, side_v; ///< in the tangent plane, world units, not parallel
-};
-
 namespace detail {
-
-/// All that is read of a vertex while light is added to it, in one line of cache (of floats).
-template <Scalar T>
-struct alignas(16 * sizeof(T)) PixelRecord {
-    std::array<T, 3> position;     ///< relative to the tree's origin
-    std::array<T, 3> row_u, row_v; ///< dual to the footprint's sides: s = row_u · (x − position) + ½
-    std::array<T, 3> normal;
-    T inverse_area;     ///< of the footprint
-    std::uint32_t slot; ///< of the tree's leaf order
-};
-
-/// Up to sixteen neighbouring vertices.
-template <Scalar T>
-struct PixelGroup {
-    static constexpr std::size_t most = 16;
-
-    std::array<std::array<T, most>, 3> position; ///< by axis; beyond `size` it repeats the last one
-    Box<T> box;                ///< about their footprints, with a little room for what lies just above or below
-    std::array<T, 3> reach;    ///< how far a footprint goes from its vertex along each axis, the largest
-    std::uint32_t first, size; ///< of the records
-    T pixel, largest;          ///< the roots of the smallest and the largest footprint's area
-};
-
-/// A leaf's groups.
-template <Scalar T>
-struct PixelLeaf {
-    std::uint32_t first, size;
-    Box<T> box;   ///< about its footprints
-    T pixel;      ///< the smallest of its groups'
-    T largest{0}; ///< the root of the largest footprint's area
-};
 
 /// The vertices of a receiver, laid out anew for drawing: 96 to 130 bytes each in float.
 template <Vector3 V>
@@ -67,10 +30,8 @@ public:
     using Record = PixelRecord<T>;
 
     /// @param map  must outlive this
-    /// @param footprint  footprint(slot, leaf) -> PixelFootprint<V>: of the vertex in that slot of the tree; called from
-    ///                   several threads
-    template <class Footprint, class E>
-    ReceiverPixels(const EyePathMap<V>& map, const Footprint& footprint, E& executor) : map_(&map) {
+    template <class E>
+    ReceiverPixels(const EyePathMap<V>& map, E& executor) : map_(&map) {
         const auto& tree = map.tree();
         std::uint32_t groups = 0;
         leaves_.reserve(tree.leaves().size());
@@ -89,25 +50,14 @@ public:
             for (std::uint32_t i = 0; i < range.size; ++i)
                 slots[i] = range.first + i;
             Place place{std::uint32_t(leaf), leaves_[leaf].first, range.first};
-            part(std::span(slots).first(range.size), footprint, place);
+            part(std::span(slots).first(range.size), place);
             join(leaves_[leaf]);
         });
-        for (const PixelLeaf<T>& leaf : leaves_)
+        for (const PixelLeaf<T>& leaf : leaves_) {
             largest_pixel_ = (std::max)(largest_pixel_, double(leaf.largest));
-        draw_boxes();
+            bounds_ = joined(bounds_, leaf.box);
+        }
     }
-    /// Squares of the vertices' spacing, turned as `frame_about` the normal turns them.
-    template <class E>
-    ReceiverPixels(const EyePathMap<V>& map, E& executor)
-        : ReceiverPixels(
-              map,
-              [&map](std::size_t slot, std::uint32_t leaf) {
-                  const T side = map.leaf(leaf).spacing;
-                  const Frame<V> frame =
-                      frame_about(make_vector<V>(map.normal_x()[slot], map.normal_y()[slot], map.normal_z()[slot]));
-                  return PixelFootprint<V>{side * frame.u, side * frame.v};
-              },
-              executor) {}
 
     [[nodiscard]] const EyePathMap<V>& map() const { return *map_; }
     [[nodiscard]] std::span<const PixelLeaf<T>> leaves() const { return leaves_; }
@@ -123,15 +73,14 @@ public:
     /// Calls visit(leaf) for every leaf with footprints that the box may reach, in the tree's order.
     template <class Visit>
     void visit_leaves(const Box<T>& box, Visit&& visit) const {
-        wide_.visit_leaves(nodes_, box, visit);
+        map_->visit_footprints(box, visit);
     }
 
     [[nodiscard]] double largest_pixel() const { return largest_pixel_; }
 
     /// The side of a pixel around a place relative to the tree's origin, world units; the receiver must not be empty.
     [[nodiscard]] double pixel_at(const Double3& place) const {
-        const std::array<T, 3> p{T(place.x), T(place.y), T(place.z)};
-        return double(leaves_[wide_.nearest_leaf(nodes_, p)].pixel);
+        return double(leaves_[map_->tree().nearest_leaf(make_vector<V>(T(place.x), T(place.y), T(place.z)))].pixel);
     }
 
 private:
@@ -157,10 +106,9 @@ private:
     }
 
     /// Splits a leaf's vertices across the longest side of their box until sixteen are left.
-    template <class Footprint>
-    void part(std::span<std::uint32_t> slots, const Footprint& footprint, Place& place) {
+    void part(std::span<std::uint32_t> slots, Place& place) {
         if (slots.size() <= most) {
-            fill_group(slots, footprint, place);
+            fill_group(slots, place);
             return;
         }
         const auto& tree = map_->tree();
@@ -179,12 +127,11 @@ private:
         const std::size_t half = first_part(std::uint32_t(slots.size()));
         const auto less = [x = coordinates[axis]](auto i, auto j) { return x[i] < x[j] || (!(x[j] < x[i]) && i < j); };
         std::nth_element(slots.begin(), slots.begin() + std::ptrdiff_t(half), slots.end(), less);
-        part(slots.first(half), footprint, place);
-        part(slots.subspan(half), footprint, place);
+        part(slots.first(half), place);
+        part(slots.subspan(half), place);
     }
 
-    template <class Footprint>
-    void fill_group(std::span<const std::uint32_t> slots, const Footprint& footprint, Place& place) {
+    void fill_group(std::span<const std::uint32_t> slots, Place& place) {
         Group& group = groups_.items[place.group++];
         group.box = {{far_away, far_away, far_away}, {-far_away, -far_away, -far_away}};
         group.reach = {};
@@ -199,7 +146,7 @@ private:
             for (std::size_t axis = 0; axis < 3; ++axis)
                 group.position[axis][i] = p[axis];
             if (i < slots.size())
-                add_record(group, slot, p, footprint(slot, place.leaf), records_.items[place.record++]);
+                add_record(group, slot, p, map_->footprint(place.leaf, slot), records_.items[place.record++]);
         }
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const T room = T(0.03) * (std::max)({group.reach[0], group.reach[1], group.reach[2]});
@@ -207,32 +154,28 @@ private:
         }
     }
 
-    void add_record(Group& group, std::uint32_t slot, const std::array<T, 3>& p, PixelFootprint<V> f, Record& record) {
+    void add_record(Group& group, std::uint32_t slot, const std::array<T, 3>& p, FootprintRows<V> rows,
+                    Record& record) {
         using t = vector_traits<V>;
         const V normal = make_vector<V>(map_->normal_x()[slot], map_->normal_y()[slot], map_->normal_z()[slot]);
-        V across = cross(f.side_u, f.side_v);
-        if (dot(across, normal) < T(0)) { // counter-clockwise as seen from the side that is lit
-            std::swap(f.side_u, f.side_v);
-            across = -across;
-        }
-        const T area = length(across);
-        // Light over a footprint without area would be infinite: such a vertex sees none.
-        const T inverse = area > T(0) && isfinite(area) ? T(1) / area : T(0);
-        const V unit = inverse * across;
-        const V row_u = inverse * cross(f.side_v, unit), row_v = inverse * cross(unit, f.side_u);
+        if (dot(cross(rows.u, rows.v), normal) < T(0)) // counter-clockwise as seen from the side that is lit
+            std::swap(rows.u, rows.v);
         const auto array = [](const V& v) { return std::array<T, 3>{t::x(v), t::y(v), t::z(v)}; };
-        record = {p, array(row_u), array(row_v), array(normal), inverse, slot};
-        const std::array<T, 3> u = array(f.side_u), v = array(f.side_v);
+        record = {p, array(rows.u), array(rows.v), array(normal), rows.inverse_area, slot};
+        if (!(rows.inverse_area > T(0))) // sees nothing
+            return;
+        // The sides from the rows, whose dual basis they are.
+        const T area = T(1) / rows.inverse_area;
+        const V across = area * cross(rows.u, rows.v);
+        const std::array<T, 3> u = array(V(area * cross(rows.v, across))), v = array(V(area * cross(across, rows.u)));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const T reach = T(0.5) * (abs(u[axis]) + abs(v[axis]));
             group.reach[axis] = (std::max)(group.reach[axis], reach);
             group.box.low[axis] = (std::min)(group.box.low[axis], p[axis] - reach);
             group.box.high[axis] = (std::max)(group.box.high[axis], p[axis] + reach);
         }
-        if (area > T(0)) {
-            group.pixel = (std::min)(group.pixel, sqrt(area));
-            group.largest = (std::max)(group.largest, sqrt(area));
-        }
+        group.pixel = (std::min)(group.pixel, sqrt(area));
+        group.largest = (std::max)(group.largest, sqrt(area));
     }
 
     void join(PixelLeaf<T>& leaf) const {
@@ -255,19 +198,6 @@ private:
         return both;
     }
 
-    /// The tree's nodes about footprints instead of points.
-    void draw_boxes() {
-        const auto nodes = map_->tree().nodes();
-        nodes_.assign(nodes.begin(), nodes.end());
-        for (std::size_t i = nodes_.size(); i-- > 0;) { // children follow their parents
-            nodes_[i].box = nodes_[i].leaf != no_leaf ? leaves_[nodes_[i].leaf].box
-                                                      : joined(nodes_[i + 1].box, nodes_[nodes_[i + 1].skip].box);
-        }
-        if (!nodes_.empty())
-            bounds_ = nodes_.front().box;
-        wide_ = WideTree<T>(std::span<const TreeNode<T>>(nodes_));
-    }
-
     static constexpr std::uint32_t most = Group::most;
     static constexpr T far_away = std::numeric_limits<T>::infinity();
 
@@ -275,8 +205,6 @@ private:
     std::vector<PixelLeaf<T>> leaves_;
     Items<Group> groups_;
     Items<Record> records_;
-    std::vector<TreeNode<T>> nodes_;
-    WideTree<T> wide_;
     double largest_pixel_ = 0;
     Box<T> bounds_{{far_away, far_away, far_away}, {-far_away, -far_away, -far_away}};
 };

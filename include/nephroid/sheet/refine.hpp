@@ -2,13 +2,11 @@
 /// @file  Where more photons are needed: blocks of 2 × 2 cells are split until their patches say where light lands.
 #pragma once
 
-#include "nephroid/sheet/cell_tangents.hpp"
-#include "nephroid/sheet/hermite_patch.hpp"
+#include "nephroid/sheet/node_block.hpp"
 #include "nephroid/sheet/receiver_pixels.hpp"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,10 +16,11 @@ namespace nephroid {
 
 /// When a block of cells is split. Light that no vertex sees is not.
 struct Refinement {
-    unsigned levels = 4;      ///< times that a cell may be split into four, 0 to 10; 0: a regular grid
-    double tolerance = 0.06;  ///< by how much a patch may miss a photon between its corners, in pixels; > 0
-    double relative = 0.01;   ///< the same, of the patch's size: density is right where place is; > 0
-    double most_nodes = 4096; ///< traced for one tile at most, as a multiple of its regular ones
+    unsigned levels = 4;     ///< times that a cell may be split into four, 0 to 10; 0: a regular grid
+    double tolerance = 0.06; ///< by how much a patch may miss a photon between its corners, in pixels; > 0
+    double relative = 0.01;  ///< the same, of the patch's size: density is right where place is; > 0
+    double most_nodes = 16;  ///< added to a tile at most, as a multiple of its regular ones; of a coarse grid more, up
+                             ///< to 200,000 for a chart
 };
 
 namespace detail {
@@ -62,7 +61,7 @@ public:
     void refine(const LatticePlace& place, std::int64_t step, std::vector<Cell>& cells) {
         const bool may_split = step > std::int64_t(1) << Lattice::bisections;
         const Block block = nodes_of(place, step); // the corners of cells must be there, split or not
-        if (is_empty(block)) {
+        if (is_empty<V, F>(block)) {
             if (may_split)
                 empty_.push_back({place, step});
             return;
@@ -91,7 +90,7 @@ public:
     [[nodiscard]] std::uint64_t capped() const { return capped_; }
 
 private:
-    using Block = std::array<std::array<NodeEnds<V, F>, 3>, 3>; // [j][i]
+    using Block = NodeBlock<V, F>;
 
     void split_or_take(const LatticePlace& place, std::int64_t step, bool splits, std::vector<Cell>& cells) {
         const bool is_capped = splits && nodes_.added() >= most_nodes_;
@@ -104,22 +103,6 @@ private:
                 else
                     cells.push_back({corner, step});
             }
-    }
-
-    [[nodiscard]] static bool is_empty(const Block& block) {
-        for (const auto& row : block)
-            for (const NodeEnds<V, F>& ends : row)
-                if (!ends.empty())
-                    return false;
-        return true;
-    }
-
-    [[nodiscard]] static std::size_t count_lit(const Block& block) {
-        std::size_t lit = 0;
-        for (const auto& row : block)
-            for (const NodeEnds<V, F>& ends : row)
-                lit += std::size_t(!ends.empty());
-        return lit;
     }
 
     /// Whether a node that was traced on a block's sides, for a finer neighbour, met something. Where a neighbour may
@@ -164,10 +147,11 @@ private:
         for (const auto& row : block)
             for (const NodeEnds<V, F>& ends : row)
                 for (const Node& end : ends)
-                    if (!is_whole(block, end.signature, pixel))
-                        return size > 0.25 * pixel || count_lit(block) < 5; // what is smaller is right to a pixel
+                    if (!is_whole<V, F>(block, end.signature, pixel))
+                        return size > 0.25 * pixel || count_lit<V, F>(block) < 5; // what is smaller is right to a pixel
+        const auto known = [&](const LatticePlace& p) { return nodes_.known(p); };
         for (const Node& end : block[0][0]) {
-            const Miss miss = largest_miss(block, place, step, end.signature, pixel);
+            const Miss miss = largest_miss<V, F>(block, place, step, known, end.signature, pixel);
             const double allowed =
                 (std::min)(rule_.tolerance * pixel, (std::max)(rule_.relative * miss.size, 0.02 * pixel));
             if (!(miss.furthest / 8 <= allowed)) // the miss of the four cells' patches is an eighth of the block's
@@ -204,54 +188,6 @@ private:
         bool met = false;
         pixels_.visit_leaves(box, [&](std::uint32_t) { met = true; });
         return met;
-    }
-
-    /// Whether all nine nodes have an end with this signature, and neighbours among them are joined.
-    [[nodiscard]] static bool is_whole(const Block& block, std::uint32_t signature, double pixel) {
-        std::array<std::array<const Node*, 3>, 3> end;
-        for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t i = 0; i < 3; ++i)
-                if (end[j][i] = end_of<V, F>(block[j][i], signature); !end[j][i])
-                    return false;
-        const auto size = [pixel] { return pixel; };
-        for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t i = 0; i < 2; ++i)
-                if (!are_joined(*end[j][i], *end[j][i + 1], size) || !are_joined(*end[i][j], *end[i + 1][j], size))
-                    return false;
-        return true;
-    }
-
-    struct Miss {
-        double furthest = 0, size = 0; ///< world units; size: the patch's longest side
-    };
-
-    /// How far the patch through the block's four corners misses the five nodes between them.
-    [[nodiscard]] Miss largest_miss(const Block& block, const LatticePlace& place, std::int64_t step,
-                                    std::uint32_t signature, double pixel) const {
-        const auto known = [&](const LatticePlace& p) { return nodes_.known(p); };
-        const auto size = [pixel] { return pixel; };
-        PatchCorners corners;
-        for (std::size_t i = 0; i < 2; ++i)
-            for (std::size_t j = 0; j < 2; ++j) {
-                const Node& node = *end_of<V, F>(block[2 * j][2 * i], signature);
-                const LatticePlace at{place.i + std::int64_t(2 * i) * step, place.j + std::int64_t(2 * j) * step};
-                corners[i][j] = {double3(node.position), change_along<V, F>(node, at, {2 * step, 0}, known, size),
-                                 change_along<V, F>(node, at, {0, 2 * step}, known, size)};
-            }
-        const HermitePatch patch(corners);
-        Miss miss;
-        for (std::size_t j = 0; j < 3; ++j)
-            for (std::size_t i = 0; i < 3; ++i) {
-                if (i != 1 && j != 1)
-                    continue;
-                const Double3 traced = double3(end_of<V, F>(block[j][i], signature)->position);
-                miss.furthest = (std::max)(miss.furthest, length(traced - patch(0.5 * double(i), 0.5 * double(j))));
-            }
-        const auto& c = corners;
-        miss.size =
-            (std::max)({length(c[1][0].position - c[0][0].position), length(c[1][1].position - c[0][1].position),
-                        length(c[0][1].position - c[0][0].position), length(c[1][1].position - c[1][0].position)});
-        return miss;
     }
 
     const ReceiverPixels<V>& pixels_;

@@ -14,17 +14,21 @@
 
 namespace nephroid::detail {
 
-/// Shares the pass's photons among charts by power; the cells of each are about square, and even in number.
+/// Shares the pass's photons among charts by power; the cells of each are about square, and even in number. Passes that
+/// follow each other (`first` a multiple of `count`) have cells up to a tenth wider or higher, so that their nodes lie
+/// elsewhere and what they miss averages out.
 template <Vector3 V, Flux F>
 [[nodiscard]] std::vector<Lattice> lattices_of(const EmissionCharts<V, F>& charts, const PhotonPass& pass,
                                                unsigned levels) {
     double power = 0;
     for (const auto& chart : charts)
         power += chart.power;
+    const double turn = 0.5 + 0.6180339887498949 * double(pass.first / pass.count);
+    const double stretch = 1 + 0.2 * (turn - std::floor(turn) - 0.5); // 1 for the first pass
     std::vector<Lattice> lattices;
     for (const auto& chart : charts) {
         const double nodes = power > 0 ? double(pass.count) * chart.power / power : 0;
-        const double shape = std::sqrt(chart.width / chart.height);
+        const double shape = stretch * std::sqrt(chart.width / chart.height);
         const auto even = [](double cells) {
             return (std::max)(std::int64_t(2), std::int64_t(std::floor(0.5 * cells + 1e-9)) * 2);
         };
@@ -46,9 +50,16 @@ template <Vector3 V, Flux F>
     return sectors;
 }
 
+inline constexpr std::int64_t tile_side = 16; ///< cells of a tile
+
+[[nodiscard]] inline std::int64_t tile_count(const Lattice& lattice) {
+    const auto across = [](std::int64_t cells) { return (cells + tile_side - 1) / tile_side; };
+    return across(lattice.cells_u) * across(lattice.cells_v);
+}
+
 /// A sector in tiles, along a Z-shaped curve [Morton 1966].
 [[nodiscard]] inline std::vector<CellRange> tiles_of(const CellRange& sector) {
-    constexpr std::int64_t side = 16;
+    constexpr std::int64_t side = tile_side;
     const auto spread = [](std::uint32_t x) {
         x = (x | x << 4) & 0x0f0f0f0fu;
         x = (x | x << 2) & 0x33333333u;

@@ -36,7 +36,7 @@ template <Vector3 V, Flux F, class Intensity>
     return chart;
 }
 
-/// All directions in a cone: one rectangle where the cone is no wider than 63° from its axis, else the faces of a cube.
+/// All directions in a cone: one rectangle where it is no wider than 63° from its axis, else the faces of a cube.
 template <Vector3 V, Flux F, class Intensity>
 [[nodiscard]] EmissionCharts<V, F> cone_charts(const V& position, const Cone<V>& cone, const Intensity& intensity) {
     using T = scalar_t<V>;

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+/// @file  The sheets of one chart: traced by sectors, cut up by tiles, added to the sums by leaves.
+#pragma once
+
+#include "nephroid/receiver/sums.hpp"
+#include "nephroid/sheet/cell_pieces.hpp"
+#include "nephroid/sheet/leaf_bins.hpp"
+#include "nephroid/sheet/node_tracer.hpp"
+#include "nephroid/sheet/sheet_grid.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+namespace nephroid {
+
+/// How light sheets are made.
+struct SheetOptions {
+    Tessellation tessellation{};
+    Refinement refinement{};
+    std::size_t lamp_points = 64; ///< that stand for a lamp with extent, >= 1
+};
+
+/// What became of the light, and of its sheets.
+struct SheetStatistics {
+    Statistics light;          ///< emitted.flux is the sum over all fates and `unresolved`
+    SheetAccount sheets;       ///< how much is whole and cut
+    double without_charts = 0; ///< power of lamps that have no charts: nothing is drawn of them
+    double unresolved = 0; ///< flux of nodes that landed less that of the sheets between them: what lies between nodes
+                           ///< and was not met, or was taken for more than it is
+};
+
+/// A part of a chart.
+struct ChartRectangle {
+    double u_begin, u_end, v_begin, v_end;
+};
+
+/// Nobody takes over what is broken: it is drawn as well as may be, and counted.
+struct DrawBroken {};
+
+namespace detail {
+
+/// Draws the sheets of one chart.
+template <class S, Vector3 V, Flux F, class R, class E, class TakeOver>
+class ChartSheets {
+public:
+    using T = scalar_t<V>;
+    using Node = NodeEnd<V, F>;
+
+    ChartSheets(const S& scene, const EmissionChart<V, F>& chart, Sums<V, F, R>& sums, const ReceiverPixels<V>& pixels,
+                const SheetOptions& options, const WalkLimits& limits, double weight, E& executor, TakeOver& take_over)
+        : scene_(scene), chart_(chart), sums_(sums), pixels_(pixels), options_(options), limits_(limits),
+          weight_(weight), executor_(executor), take_over_(take_over), bins_(sums.map().tree().leaves().size()) {}
+
+    void draw(const Lattice& lattice, SheetStatistics& statistics) {
+        for (const CellRange& sector : sectors_of(lattice)) {
+            announce(executor_, Phase::trace);
+            trace(lattice, sector, statistics);
+            const std::vector<CellRange> tiles = tiles_of(sector);
+            for (std::size_t first = 0; first < tiles.size(); first += tiles_per_batch) {
+                const auto batch = std::span(tiles).subspan(first, (std::min)(tiles_per_batch, tiles.size() - first));
+                announce(executor_, Phase::fit);
+                cut_up(lattice, batch, statistics);
+                announce(executor_, Phase::splat);
+                add_to_sums(batch.size());
+            }
+        }
+    }
+
+private:
+    static constexpr std::size_t tiles_per_batch = 64;
+
+    void trace(const Lattice& lattice, const CellRange& sector, SheetStatistics& statistics) {
+        traced_.assign(1024, {});
+        grid_.fill(
+            lattice, sector,
+            [&](const LatticePlace& place, std::vector<Node>& ends, std::size_t task) {
+                trace_node(scene_, chart_, T(lattice.u(place)), T(lattice.v(place)),
+                           area_of_node(lattice, sector, place), sums_.map().tree().origin(), limits_, ends,
+                           traced_[task]);
+            },
+            executor_);
+        statistics.sheets.nodes += grid_.size();
+        for (const TracedNodes& traced : traced_) {
+            statistics.light += traced.account;
+            statistics.unresolved += traced.landed;
+            statistics.sheets.by_chance += traced.by_chance;
+        }
+    }
+
+    void cut_up(const Lattice& lattice, std::span<const CellRange> tiles, SheetStatistics& statistics) {
+        tiles_.resize((std::max)(tiles_.size(), tiles.size()));
+        is_broken_.assign(tiles.size(), 0);
+        std::vector<SheetStatistics> accounts(tiles.size());
+        executor_(tiles.size(), [&](std::size_t i) {
+            TracedNodes traced;
+            const auto trace = [&](const LatticePlace& place, std::vector<Node>& ends) {
+                trace_node(scene_, chart_, T(lattice.u(place)), T(lattice.v(place)), 0, sums_.map().tree().origin(),
+                           limits_, ends, traced);
+            };
+            NodeCache<V, F, decltype(trace)> nodes(grid_, lattice, trace);
+            tiles_[i].clear();
+            CellPieces<V, F, decltype(nodes)> pieces(lattice, pixels_, options_.tessellation, nodes, tiles_[i],
+                                                     accounts[i].sheets);
+            const std::int64_t step = lattice.step();
+            const double regular = double((tiles[i].columns() + 1) * (tiles[i].rows() + 1));
+            const double most_nodes =
+                (std::max)(options_.refinement.most_nodes * regular, 200'000 / double(tile_count(lattice)));
+            BlockRefiner<V, F, decltype(nodes)> refiner(
+                pixels_, options_.refinement, nodes,
+                {{tiles[i].begin_u * step, tiles[i].begin_v * step}, {tiles[i].end_u * step, tiles[i].end_v * step}},
+                std::size_t(most_nodes));
+            std::vector<Cell> cells;
+            for (std::int64_t v = tiles[i].begin_v; v < tiles[i].end_v; v += 2)
+                for (std::int64_t u = tiles[i].begin_u; u < tiles[i].end_u; u += 2)
+                    refiner.refine({u * step, v * step}, step, cells);
+            refiner.refine_empty(cells);
+            for (const Cell& cell : cells)
+                pieces.add(cell);
+            accounts[i].sheets.capped += refiner.capped();
+            accounts[i].sheets.nodes += nodes.added();
+            accounts[i].sheets.by_chance += traced.by_chance;
+            accounts[i].light = traced.account;
+            is_broken_[i] = is_broken(accounts[i].sheets);
+            if (is_broken_[i])
+                give_away(tiles_[i], accounts[i].sheets);
+        });
+        for (std::size_t i = 0; i < tiles.size(); ++i) {
+            statistics.light += accounts[i].light;
+            statistics.sheets += accounts[i].sheets;
+            if constexpr (!std::is_same_v<TakeOver, DrawBroken>)
+                if (is_broken_[i]) {
+                    const double cells_u = double(lattice.cells_u), cells_v = double(lattice.cells_v);
+                    take_over_(chart_,
+                               ChartRectangle{double(tiles[i].begin_u) / cells_u, double(tiles[i].end_u) / cells_u,
+                                              double(tiles[i].begin_v) / cells_v, double(tiles[i].end_v) / cells_v});
+                }
+        }
+    }
+
+    [[nodiscard]] static bool is_broken(const SheetAccount& account) {
+        return 3 * account.cut.flux > account.seen.flux + account.unseen.flux;
+    }
+
+    /// Books a broken tile's light, which is drawn if nobody takes it over.
+    static void give_away(TilePieces<V, F>& tile, SheetAccount& account) {
+        ++account.broken_tiles;
+        Tally& to = std::is_same_v<TakeOver, DrawBroken> ? account.broken : account.handed_over;
+        to.add(account.seen.flux + account.unseen.flux);
+        if constexpr (!std::is_same_v<TakeOver, DrawBroken>) {
+            tile.clear();
+            account.seen = account.unseen = account.cut = {};
+        }
+    }
+
+    void add_to_sums(std::size_t count) {
+        const std::span<const TilePieces<V, F>> tiles(tiles_.data(), count);
+        bins_.sort(tiles, executor_);
+        const std::size_t groups_per_task = std::clamp<std::size_t>(bins_.groups() / 256, 1, 4);
+        for_each_index(executor_, bins_.groups(), groups_per_task, [&](std::size_t group) {
+            for (const BinnedBlock& binned : bins_[group]) {
+                const SheetPieces<V, F>& pieces = tiles[binned.tile].pieces;
+                const SheetBlock<V, F>& block = pieces.blocks[binned.block];
+                const std::uint32_t first = sums_.map().tree().leaves()[binned.leaf].first;
+                const std::span<F> sums = sums_.of_leaf(binned.leaf);
+                const F flux = static_cast<F>(block.flux * T(weight_));
+                add_to_leaf(pieces, block, pixels_, binned.leaf, [&](std::uint32_t slot, T irradiance) {
+                    F& sum = sums[slot - first];
+                    if constexpr (std::is_same_v<R, Irradiance>)
+                        sum = sum + flux * irradiance;
+                    else
+                        sum = sum + flux * irradiance *
+                                        sums_.response()(std::size_t(sums_.map().tree().index(slot)), block.direction);
+                });
+            }
+        });
+    }
+
+    const S& scene_;
+    const EmissionChart<V, F>& chart_;
+    Sums<V, F, R>& sums_;
+    const ReceiverPixels<V>& pixels_;
+    const SheetOptions& options_;
+    const WalkLimits& limits_;
+    double weight_;
+    E& executor_;
+    TakeOver& take_over_;
+    NodeGrid<V, F> grid_;
+    std::vector<TracedNodes> traced_;
+    std::vector<TilePieces<V, F>> tiles_;
+    std::vector<char> is_broken_;
+    LeafBins bins_;
+};
+
+} // namespace detail
+
+} // namespace nephroid

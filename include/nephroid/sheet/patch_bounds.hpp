@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// @file  Boxes about patches, in double.
+#pragma once
+
+#include "nephroid/sheet/hermite_patch.hpp"
+#include "nephroid/tree/box.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+namespace nephroid::detail {
+
+/// About one place.
+[[nodiscard]] inline Box<double> box_about(const Double3& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
+
+/// Widens a box to hold a place.
+inline void include(Box<double>& box, const Double3& p) {
+    const std::array<double, 3> c{p.x, p.y, p.z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box.low[axis] = (std::min)(box.low[axis], c[axis]);
+        box.high[axis] = (std::max)(box.high[axis], c[axis]);
+    }
+}
+
+[[nodiscard]] inline Box<double> grown(Box<double> box, double by) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        box.low[axis] -= by, box.high[axis] += by;
+    return box;
+}
+
+template <Scalar T>
+[[nodiscard]] Box<T> narrowed_box(const Box<double>& box) {
+    return {{T(box.low[0]), T(box.low[1]), T(box.low[2])}, {T(box.high[0]), T(box.high[1]), T(box.high[2])}};
+}
+
+/// About the control points of the patch as a Bézier surface: it lies in their hull.
+[[nodiscard]] inline Box<double> bounds_of(const PatchCorners& c) {
+    const Double3& first = c[0][0].position;
+    Box<double> box = box_about(first);
+    for (std::size_t i = 0; i < 2; ++i)
+        for (std::size_t j = 0; j < 2; ++j) {
+            const Double3 u = (i == 0 ? 1 / 3.0 : -1 / 3.0) * c[i][j].along_u,
+                          v = (j == 0 ? 1 / 3.0 : -1 / 3.0) * c[i][j].along_v;
+            const Double3 both = (i == j ? 1 / 9.0 : -1 / 9.0) * adini_twist(c, i, j);
+            include(box, c[i][j].position);
+            include(box, c[i][j].position + u);
+            include(box, c[i][j].position + v);
+            include(box, c[i][j].position + (u + v) + both);
+        }
+    return box;
+}
+
+} // namespace nephroid::detail

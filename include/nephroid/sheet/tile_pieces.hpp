@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/// @file  What a tile of a chart sends to the receiver.
+#pragma once
+
+#include "nephroid/sheet/sheet_block.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// A leaf of the receiver, and a block that it is to be lit by.
+struct BlockVisit {
+    std::uint32_t leaf, block;
+};
+
+/// What a tile sends to the receiver, in the order of its cells.
+template <Vector3 V, Flux F>
+struct TilePieces {
+    SheetPieces<V, F> pieces;
+    std::vector<BlockVisit> visits;
+
+    void clear() {
+        pieces.clear();
+        visits.clear();
+    }
+};
+
+} // namespace nephroid::detail
