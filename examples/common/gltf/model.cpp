@@ -142,7 +142,7 @@ bool read_whole(std::vector<unsigned char>* out, std::string* error, const std::
 
 bool write_nothing(std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; }
 
-bool size_of(std::size_t* bytes, std::string* error, const std::string& path, void*) {
+[[maybe_unused]] bool size_of(std::size_t* bytes, std::string* error, const std::string& path, void*) {
     std::error_code code;
     const std::uintmax_t size = fs::file_size(path, code);
     if (code) {
