@@ -182,8 +182,8 @@ Table errors_table(const std::vector<Case>& cases) {
                 return error_text(value_of(first.by(measure).errors, measure));
             };
             const auto [least, most] =
-                std::ranges::minmax({first.by(Measure::relative).bandwidth, first.by(Measure::rmse).bandwidth,
-                                     first.by(Measure::ssim).bandwidth});
+                std::minmax({first.by(Measure::relative).bandwidth, first.by(Measure::rmse).bandwidth,
+                             first.by(Measure::ssim).bandwidth});
             table.rows.push_back({one.name, name_of(one.sequence), grouped(first.wanted),
                                   error_text(second.errors.relative), error_text(second.errors.rmse),
                                   error_text(second.errors.ssim), text("%+.3f%%", 100 * second.errors.energy),
