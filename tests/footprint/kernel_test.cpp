@@ -31,7 +31,7 @@ struct NoSecondMoment {
     float operator()(float) const { return 0; }
 };
 struct OnlyFloat {
-    static constexpr double second_moment = 0.25;
+    [[maybe_unused]] static constexpr double second_moment = 0.25;
     float operator()(float) const { return 0; }
 };
 
