@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include <type_traits>
+#include <memory>
 #include <vector>
 
 using namespace nephroid;
