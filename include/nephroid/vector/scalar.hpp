@@ -26,7 +26,7 @@ template <class T>
 concept Scalar = is_scalar<T>;
 
 template <Scalar T>
-inline constexpr T pi = T(std::numbers::pi_v<long double>);
+inline constexpr T pi = T(3.141592653589793238462643383279502884197L); // libc++ 14 knows no more than a double of it
 
 template <>
 inline constexpr float pi<float> = std::numbers::pi_v<float>;
