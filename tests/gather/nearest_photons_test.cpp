@@ -116,7 +116,13 @@ TEST_CASE_TEMPLATE("nearest photons: coincident photons give a large finite esti
     const V there{T(0.25), T(0.5), 0};
     const auto heap = map_of_stored(photons);
     const NearestPhotons from_heap(heap, {.count = 20});
-    CHECK(from_heap(there, up<V>()) == 0);
+    const double heap_radius = 4 * epsilon<T> * std::hypot(0.25, 0.5); // twenty with the biweight's 3/π
+    CHECK(double(from_heap(there, up<V>())) ==
+          doctest::Approx(20 * 3 / std::numbers::pi / (heap_radius * heap_radius)).epsilon(1e-5));
+    const auto at_origin = map_of_stored(std::vector<Stored<V>>(100, tests::on_floor<V>(0, 0, 1)));
+    const double bright = double(NearestPhotons(at_origin, {.count = 20})({0, 0, 0}, up<V>()));
+    CHECK(std::isfinite(bright));
+    CHECK(bright > 1e15);
     // All on the rim, where the biweight kernel has no more than epsilon squared left.
     CHECK(double(from_heap({T(0.5), T(0.5), 0}, up<V>())) < 20 / 0.0625 * square(epsilon<T>) * 1.01);
     photons.push_back(tests::on_floor<V>(0.5, 0.5, 1));

@@ -55,5 +55,7 @@ TEST_CASE("relaxation options: what cannot be is named with its value") {
     CHECK(complaint({.evidence = -1}) == "nephroid::relax: evidence -1 is not 0 or positive, and finite");
     CHECK(complaint({.rho = -1}) == "nephroid::relax: rho -1 is not 0 or positive, and finite");
     CHECK(complaint({.cos_same_surface = 2}) == "nephroid::relax: cos_same_surface 2 is not -1 to 1");
-    CHECK(complaint({.leash = 0}) == "nephroid::relax: leash 0 is not positive and finite");
+    CHECK(complaint({.leash = 0}) == "nephroid::relax: leash 0 is not above 0 and at most 16");
+    CHECK(complaint({.leash = 1e30}) == "nephroid::relax: leash 1e+30 is not above 0 and at most 16");
+    CHECK(complaint({.edge_evidence = -1}) == "nephroid::relax: edge_evidence -1 is not 0 or positive, and finite");
 }

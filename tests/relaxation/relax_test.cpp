@@ -79,7 +79,7 @@ TEST_CASE("relaxation: the first iteration moves photons as the formulas say") {
     for (const double rho : {0.0, 0.3})
         for (const double lambda : {1.0, 2.0}) {
             auto photons = start;
-            run(photons, {.iterations = 1, .over_relaxation = lambda, .constrain = false, .rho = rho, .leash = 100});
+            run(photons, {.iterations = 1, .over_relaxation = lambda, .constrain = false, .rho = rho, .leash = 16});
             double worst = 0;
             for (std::size_t i = 0; i < photons.size(); ++i)
                 worst = std::max(worst, distance(photons[i].position,
@@ -91,11 +91,11 @@ TEST_CASE("relaxation: the first iteration moves photons as the formulas say") {
 TEST_CASE("relaxation: the second iteration damps moves by the radius of the first") {
     auto photons = random_floor(300, 72);
     const auto first = photons;
-    run(photons, {.iterations = 1, .constrain = false, .leash = 100});
+    run(photons, {.iterations = 1, .constrain = false, .leash = 16});
     const auto second = photons;
     // Two iterations, of which the second follows half of its force and λ has come down to 1.2 + 0.8 exp(−1.5).
     auto both = first;
-    run(both, {.iterations = 2, .final_step = 0.5, .constrain = false, .leash = 100});
+    run(both, {.iterations = 2, .final_step = 0.5, .constrain = false, .leash = 16});
     double worst = 0;
     for (std::size_t i = 0; i < photons.size(); ++i) {
         const Space force = expected_move(second, i, 1.2 + 0.8 * std::exp(-1.5), 0);
@@ -460,4 +460,124 @@ TEST_CASE("relaxation: without an executor everything runs on the calling thread
     run(photons, {.iterations = 3});
     relax(same, access_to<Stored>(), {.iterations = 3});
     CHECK(same_positions(photons, same));
+}
+
+// Six push a photon and a seventh sets the radius: among fewer there is no disc, and they would drive each other away.
+TEST_CASE("relaxation: photons with fewer than seven others on their surface stay where they are") {
+    for (const int count : {2, 3, 7}) {
+        auto photons = random_floor(count, 104);
+        const auto start = photons;
+        run(photons, {.iterations = 50, .rho = 0});
+        CHECK(same_positions(photons, start));
+    }
+    auto eight = random_floor(8, 104);
+    const auto start = eight;
+    run(eight, {.iterations = 5});
+    CHECK_FALSE(same_positions(eight, start));
+}
+
+TEST_CASE("relaxation: a projection that clamps keeps photons on a bounded floor") {
+    auto photons = random_floor(2000, 105), free = photons;
+    const auto on_floor = [](std::size_t, const glm::dvec3& p) {
+        return glm::dvec3(std::clamp(p.x, 0.0, 1.0), std::clamp(p.y, 0.0, 1.0), 0);
+    };
+    const auto beside = [&](const std::vector<Stored>& map) {
+        return std::count_if(map.begin(), map.end(),
+                             [&](const Stored& p) { return length(p.position - on_floor(0, p.position)) > 0; });
+    };
+    relax(photons, access_to<Stored>(), {}, SerialExecutor{}, on_floor);
+    run(free, {});
+    CHECK(beside(photons) == 0);
+    CHECK(beside(free) > 0);
+    CHECK(nearest_distance(photons) > 1.25);
+}
+
+// A photon on a unit sphere that moves by d turns its normal by d: all stay radial, to rounding.
+TEST_CASE("relaxation: a projection may turn normals with the surface") {
+    Draws draw(106);
+    std::vector<Stored> photons;
+    for (int i = 0; i < 500; ++i) {
+        const auto n = narrow<glm::dvec3>(draw.direction());
+        photons.push_back({i, n, n, 1});
+    }
+    auto still = photons;
+    const auto on_sphere = [](std::size_t, const glm::dvec3& p) {
+        const glm::dvec3 n = (1 / length(p)) * p;
+        return SurfacePoint<glm::dvec3>{n, n};
+    };
+    const auto worst = [](const std::vector<Stored>& map) {
+        double angle = 0;
+        for (const Stored& p : map)
+            angle = std::max(angle, length(p.position - p.normal));
+        return angle;
+    };
+    relax(photons, access_to<Stored>(), {.iterations = 30}, SerialExecutor{}, on_sphere);
+    CHECK(worst(photons) < 1e-13); // 30 times to the tree's origin and back
+    relax(still, access_to<Stored>(), {.iterations = 30}, SerialExecutor{},
+          [&](std::size_t i, const glm::dvec3& p) { return on_sphere(i, p).position; });
+    CHECK(worst(still) > 0.05); // the spacing is 0.16
+    std::vector<Stored> parallel, again;
+    for (const Stored& p : still)
+        parallel.push_back({p.number, p.position, p.position, 1});
+    again = parallel;
+    ThreadExecutor threads(3);
+    relax(parallel, access_to<Stored>(), {.iterations = 5}, threads, on_sphere);
+    relax(again, access_to<Stored>(), {.iterations = 5}, SerialExecutor{}, on_sphere);
+    CHECK(same_positions(parallel, again));
+    const auto none = [](std::size_t, const glm::dvec3& p) { return SurfacePoint<glm::dvec3>{p, {0, 0, 0}}; };
+    CHECK_THROWS_AS(relax(again, access_to<Stored>(), {}, SerialExecutor{}, none), std::invalid_argument);
+}
+
+TEST_CASE_TEMPLATE("relaxation: any number of photons in one place part", T, float, double) {
+    using V = glm::vec<3, T>;
+    for (const std::size_t together : {36u, 60u, 200u})
+        for (const bool constrain : {true, false}) {
+            auto photons = random_floor<V>(600, 107);
+            for (std::size_t i = 0; i < together; ++i)
+                photons[i].position = photons[0].position;
+            run(photons, {.constrain = constrain});
+            CHECK(all_photons_finite(photons));
+            std::size_t still = 0;
+            for (std::size_t i = 0; i < together; ++i)
+                still += distances(photons, i).front().first == 0;
+            CHECK(still == 0);
+        }
+}
+
+// The spacing is 1/√1000 = 0.03. Denser by five the upper sheet would push the lower one apart.
+TEST_CASE("relaxation: parallel sheets with one normal that lie closer than a spacing do not feel each other") {
+    for (const double height : {0.001, 0.01, 0.03}) {
+        auto lower = random_floor(1000, 108);
+        auto upper = random_floor(5000, 109);
+        for (Stored& photon : upper)
+            photon.position.z = height;
+        auto both = lower;
+        both.insert(both.end(), upper.begin(), upper.end());
+        run(both, {.iterations = 10, .constrain = false});
+        run(lower, {.iterations = 10, .constrain = false});
+        double apart = 0;
+        for (std::size_t i = 0; i < lower.size(); ++i)
+            apart = std::max(apart, length(lower[i].position - both[i].position));
+        CHECK(apart < 1e-9); // the same to rounding that iterations amplify
+    }
+}
+
+TEST_CASE("relaxation: a map that keeps its density reports the pilot and the neighbours to estimate with") {
+    auto photons = random_floor(8000, 110), halton = photons;
+    auto report = run(photons, RelaxationOptions::keeping_density());
+    CHECK_FALSE(report.stratified);
+    CHECK(report.pilot_neighbours >= 300); // nothing to see: the more the better
+    CHECK(report.estimate_neighbours >= 20);
+    for (std::size_t i = 0; i < halton.size(); ++i) { // a lattice: (i/n, i times the golden ratio)
+        const double y = double(i) * 0.6180339887498949;
+        halton[i].position = {(double(i) + 0.5) / 8000, y - std::floor(y), 0};
+    }
+    report = run(halton, RelaxationOptions::keeping_density());
+    CHECK(report.stratified);
+    CHECK(report.pilot_neighbours == 75);
+    CHECK(run(photons, {}).pilot_neighbours == 0);
+    auto few = random_floor(100, 111);
+    report = run(few, RelaxationOptions::keeping_density());
+    CHECK(report.pilot_unjudged);
+    CHECK(report.pilot_neighbours == 150);
 }

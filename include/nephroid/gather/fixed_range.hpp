@@ -2,7 +2,10 @@
 /// @file  Photon mapping with a fixed radius: all photons within a range, by their distance.
 #pragma once
 
+#include "nephroid/gather/coverage.hpp"
 #include "nephroid/gather/gather.hpp"
+
+#include <utility>
 
 namespace nephroid {
 
@@ -19,22 +22,23 @@ struct FixedRangeOptions {
 /// const nephroid::FixedRange estimate(map, {.range = 0.02});
 /// const float e = estimate(position, normal);
 /// ```
-template <Vector3 V, Flux F, class K = BiweightKernel>
-    requires Kernel<K, scalar_t<V>>
+template <Vector3 V, Flux F, class K = BiweightKernel, class C = WholeDisk>
+    requires Kernel<K, scalar_t<V>> && detail::MustBeCoverage<C, V>
 class FixedRange {
 public:
     using T = scalar_t<V>;
 
-    /// @param map  is referred to, and must outlive the estimate
+    /// @param map       is referred to, and must outlive the estimate
+    /// @param coverage  the share of the disk of radius R that lies on the surface (gather/coverage.hpp)
     /// Throws std::invalid_argument for a range that is not positive and finite and a normal distance that is not
     /// positive.
-    FixedRange(const PhotonMap<V, F>& map, FixedRangeOptions options, K kernel = {})
+    FixedRange(const PhotonMap<V, F>& map, FixedRangeOptions options, K kernel = {}, C coverage = {})
         : map_(&map), range_(T(options.range)), thickness_(T(options.normal_distance * options.range)),
-          kernel_(kernel) {
+          kernel_(kernel), coverage_(std::move(coverage)) {
         detail::check_radius<T>("nephroid::FixedRange", "range", options.range, false);
         detail::check_positive("nephroid::FixedRange", "normal_distance", options.normal_distance, true);
     }
-    FixedRange(const PhotonMap<V, F>&&, FixedRangeOptions, K = {}) = delete; // would refer to a temporary
+    FixedRange(const PhotonMap<V, F>&&, FixedRangeOptions, K = {}, C = {}) = delete; // would refer to a temporary
 
     /// The irradiance at a point of a surface; a position or normal that is not finite receives nothing.
     /// @param normal  unit; photons on the other side do not count
@@ -53,13 +57,14 @@ public:
                 return;
             detail::receive(sum, *map_, slot, kernel_(distance2 * scale) * scale, response);
         });
-        return sum;
+        return detail::over_coverage(coverage_, sum, position, normal, range_);
     }
 
 private:
     const PhotonMap<V, F>* map_;
     T range_, thickness_;
     K kernel_;
+    C coverage_;
 };
 
 } // namespace nephroid

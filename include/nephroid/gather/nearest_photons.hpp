@@ -2,10 +2,12 @@
 /// @file  Standard photon mapping: the k nearest photons over the area that they lie in [Jensen 1996].
 #pragma once
 
+#include "nephroid/gather/coverage.hpp"
 #include "nephroid/gather/differential_checking.hpp"
 #include "nephroid/gather/gather.hpp"
 
 #include <limits>
+#include <utility>
 
 namespace nephroid {
 
@@ -26,7 +28,8 @@ struct NearestPhotonsOptions {
 ///
 /// Where `range` holds fewer than k photons, R is the range. Where there are fewer than k in all and no range, R is the
 /// distance of the farthest. R is never below the resolution of positions, four epsilon of the distance from the
-/// world's origin: where k photons lie in one place, the estimate is large and not infinite.
+/// world's origin: where k photons lie in one place, the estimate is large and not infinite, also if these are all
+/// there are.
 ///
 /// ```cpp
 /// const nephroid::NearestPhotons estimate(map, {.count = 100}, nephroid::ConeKernel{});
@@ -35,17 +38,18 @@ struct NearestPhotonsOptions {
 ///
 /// Several threads may call at once; each keeps memory for k neighbours. A response must therefore not call another
 /// estimate from nearest photons itself.
-template <Vector3 V, Flux F, class K = BiweightKernel>
-    requires Kernel<K, scalar_t<V>>
+template <Vector3 V, Flux F, class K = BiweightKernel, class C = WholeDisk>
+    requires Kernel<K, scalar_t<V>> && detail::MustBeCoverage<C, V>
 class NearestPhotons {
 public:
     using T = scalar_t<V>;
 
     /// @param map     is referred to, and must outlive the estimate
     /// @param kernel  UniformKernel, ConeKernel (Jensen's with k = 1), BiweightKernel, … (footprint/kernel.hpp)
+    /// @param coverage  the share of the disk of radius R that lies on the surface (gather/coverage.hpp)
     /// Throws std::invalid_argument for k < 2 (a single photon gives no area), and for lengths that are not positive.
-    NearestPhotons(const PhotonMap<V, F>& map, NearestPhotonsOptions options = {}, K kernel = {})
-        : map_(&map), options_(options), kernel_(kernel) {
+    NearestPhotons(const PhotonMap<V, F>& map, NearestPhotonsOptions options = {}, K kernel = {}, C coverage = {})
+        : map_(&map), options_(options), kernel_(kernel), coverage_(std::move(coverage)) {
         constexpr const char* who = "nephroid::NearestPhotons";
         if (options.count < 2)
             invalid_argument(std::string(who) + ": count is " + std::to_string(options.count) +
@@ -57,8 +61,10 @@ public:
         range2_ = square(T(options.range));
         const T epsilon = std::numeric_limits<T>::epsilon();
         least_radius_ = square(T(4) * epsilon) * map.diagonal();
+        if (!(least_radius_ > T(0))) // one place, perhaps the world's origin: any radius whose square can be divided by
+            least_radius_ = sqrt(sqrt((std::numeric_limits<T>::min)()));
     }
-    NearestPhotons(const PhotonMap<V, F>&&, NearestPhotonsOptions = {}, K = {}) = delete; // would refer to a temporary
+    NearestPhotons(const PhotonMap<V, F>&&, NearestPhotonsOptions = {}, K = {}, C = {}) = delete; // would refer to a temporary
 
     /// The irradiance at a point of a surface; a position or normal that is not finite receives nothing.
     /// @param normal  unit; photons on the other side do not count
@@ -78,9 +84,7 @@ public:
         const std::size_t found =
             map_->tree().nearest(relative, room, range2_, [&](std::size_t slot) { return map_->faces(slot, normal); });
         const T least_radius =
-            least_radius_ > T(0)
-                ? (std::max)(least_radius_, T(4) * std::numeric_limits<T>::epsilon() * length(position))
-                : T(0);
+            (std::max)(least_radius_, T(4) * std::numeric_limits<T>::epsilon() * length(position));
         const auto [neighbours, radius2] = disk(room.first(found), square(least_radius));
         if (!(radius2 > T(0)))
             return sum;
@@ -98,7 +102,9 @@ public:
             const T weight = kernel_(is_on_rim ? inside : T(n.distance2 * scale)) * scale;
             detail::receive(is_on_rim ? rim : sum, *map_, n.slot, weight, response);
         }
-        return on_rim > 1 ? F(sum + rim * T(1 - 1 / double(on_rim))) : sum;
+        if (on_rim > 1)
+            sum = sum + rim * T(1 - 1 / double(on_rim));
+        return detail::over_coverage(coverage_, sum, position, normal, sqrt(radius2));
     }
 
 private:
@@ -128,6 +134,7 @@ private:
     const PhotonMap<V, F>* map_;
     NearestPhotonsOptions options_;
     K kernel_;
+    C coverage_;
     T range2_;
     T least_radius_; ///< at the world's origin
 };

@@ -5,6 +5,7 @@
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/relaxation/feature_detector.hpp"
 #include "nephroid/relaxation/options.hpp"
+#include "nephroid/relaxation/parallel_sheets.hpp"
 #include "nephroid/relaxation/photon_access.hpp"
 #include "nephroid/relaxation/photon_cloud.hpp"
 #include "nephroid/relaxation/photon_constraint.hpp"
@@ -30,7 +31,8 @@ template <class Photons, class Access, class E = SerialExecutor>
     using V = detail::position_t<Photons, Access>;
     using Cloud = detail::PhotonCloud<V, detail::flux_t<Photons, Access>>;
     detail::check(options, "detect_features");
-    const Cloud cloud(photons, access, options.cos_same_surface, "nephroid::detect_features");
+    Cloud cloud(photons, access, options.cos_same_surface, "nephroid::detect_features");
+    detail::separate_sheets(cloud, executor);
     detail::FeatureDetector<Cloud> detector(cloud, options);
     detector.run(executor);
     std::vector<PhotonConstraint<V>> constraints(std::size_t(std::ranges::size(photons)),

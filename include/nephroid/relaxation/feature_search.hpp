@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/relaxation/discontinuity.hpp"
+#include "nephroid/relaxation/even_slope.hpp"
 #include "nephroid/relaxation/flux_discontinuity.hpp"
 #include "nephroid/relaxation/options.hpp"
 #include "nephroid/relaxation/photon_cloud.hpp"
@@ -120,6 +121,11 @@ private:
             const auto other = most_likely<T>(coordinates_);
             if (other && other->evidence > best->evidence)
                 best = other, best_u = c * u - s * v, best_v = s * u + c * v;
+        }
+        if (options.edge_evidence > 0) {
+            const double mean = double(size / radius) / double(photons_.size());
+            if (best->evidence - slope_evidence(photons_.size(), mean) < options.edge_evidence)
+                return;
         }
         keep(best, best_u * frame_.u + best_v * frame_.v);
     }

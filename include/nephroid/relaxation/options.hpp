@@ -38,9 +38,10 @@ struct RelaxationOptions {
     double final_step = 0.4;
 
     /// How many nearest photons give the density that a photon aims at, 16 to 4096. 0 for none, as in the paper: all
-    /// photons then aim at the same distance from each other, which evens out a caustic with its noise. See
-    /// `keeping_density`.
+    /// photons then aim at the same distance from each other, which evens out a caustic with its noise. `chosen_by_map`
+    /// for the best of 75, 150, 300, 600 and 1200, by leave-one-out. See `keeping_density`.
     unsigned pilot_neighbours = 0;
+    static constexpr unsigned chosen_by_map = ~0u;
 
     bool constrain = true;             ///< find features, and let photons move along them only
     unsigned feature_neighbours = 150; ///< K of the feature search, 16 to 4096
@@ -52,6 +53,10 @@ struct RelaxationOptions {
     /// The logarithm of how many times better two densities or fluxes must explain a neighbourhood's photons than one
     /// does, at least; >= 0. With `gap_variation` for features of flux alone.
     double evidence = 8;
+    /// The same against a density that grows evenly, exponentially, across the neighbourhood: 0 does not ask, and takes
+    /// steep slopes for edges, as the paper does. Not with `gap_variation`. Relaxation that keeps densities need not hold
+    /// slopes, and what it does hold stays noisy.
+    double edge_evidence = 0;
     /// Whether features are also searched for in the photons' flux, its intensity and its colour.
     bool flux_features = true;
 
@@ -65,7 +70,8 @@ struct RelaxationOptions {
     double cos_same_surface = 0.5;
     /// A photon stays within this many radii (of its first disc of K + 1 neighbours) of where it was, so that photons
     /// at the border of a map, which nothing holds from outside, do not drift away. Inside, one in 5,000 random photons
-    /// would go farther in 50 iterations. > 0; ours.
+    /// would go farther in 50 iterations. Above 0, at most 16; ours. Photons with fewer than K + 1 others on their
+    /// surface do not move at all.
     double leash = 2;
 
     /// Ours, for the least error of estimates from 20 neighbours: photons aim at the densities that the map had, and 12
@@ -75,7 +81,8 @@ struct RelaxationOptions {
         RelaxationOptions options;
         options.neighbours = 12;
         options.over_relaxation = options.final_relaxation = 1;
-        options.pilot_neighbours = 150;
+        options.pilot_neighbours = chosen_by_map;
+        options.edge_evidence = 6;
         return options;
     }
 };
@@ -86,6 +93,14 @@ struct RelaxationReport {
     unsigned iterations = 0;             ///< done; fewer than asked for if the caller's `progress` returned false
     std::size_t feature_searches = 0;    ///< neighbourhoods of `feature_neighbours` that were searched
     std::size_t constrained_photons = 0; ///< photons with a weight above 0
+    unsigned pilot_neighbours = 0;       ///< from which the densities kept were estimated; 0 if none were
+    /// The photons avoid each other already, as those of a low-discrepancy sequence do on plain ways: there is little to
+    /// gain from relaxing them. Known only if the map chose the pilot, as the next.
+    bool stratified = false;
+    /// The map had too few photons, or none away from its borders, to choose: 150 were taken.
+    bool pilot_unjudged = false;
+    /// k for an estimate from the relaxed map with a kernel that fades (`NearestPhotons`).
+    std::size_t estimate_neighbours = 20;
     std::vector<double> mean_step;       ///< per iteration: a photon's move over the radius of its neighbourhood
 };
 
@@ -104,8 +119,9 @@ inline void check(const RelaxationOptions& options, const char* who) {
     require(o.final_relaxation > 0 && o.final_relaxation <= 16, "final_relaxation", o.final_relaxation,
             "above 0 and at most 16");
     require(o.final_step > 0 && o.final_step <= 1, "final_step", o.final_step, "above 0 and at most 1");
-    require(o.pilot_neighbours == 0 || (o.pilot_neighbours >= 16 && o.pilot_neighbours <= 4096), "pilot_neighbours",
-            o.pilot_neighbours, "0 or 16 to 4096");
+    require(o.pilot_neighbours == 0 || o.pilot_neighbours == RelaxationOptions::chosen_by_map ||
+                (o.pilot_neighbours >= 16 && o.pilot_neighbours <= 4096),
+            "pilot_neighbours", o.pilot_neighbours, "0 or 16 to 4096");
     require(o.feature_neighbours >= 16 && o.feature_neighbours <= 4096, "feature_neighbours", o.feature_neighbours,
             "16 to 4096");
     require(o.beta > 0 && o.beta <= 1, "beta", o.beta, "above 0 and at most 1");
@@ -113,12 +129,14 @@ inline void check(const RelaxationOptions& options, const char* who) {
     require(o.criterion == FeatureCriterion::likelihood || o.criterion == FeatureCriterion::gap_variation, "criterion",
             double(o.criterion), "a FeatureCriterion");
     require(o.evidence >= 0 && isfinite(o.evidence), "evidence", o.evidence, "0 or positive, and finite");
+    require(o.edge_evidence >= 0 && isfinite(o.edge_evidence), "edge_evidence", o.edge_evidence,
+            "0 or positive, and finite");
     require(o.rho >= 0 && isfinite(o.rho), "rho", o.rho, "0 or positive, and finite");
     require(o.flux_diffusion == FluxDiffusion::none || o.flux_diffusion == FluxDiffusion::conserving ||
                 o.flux_diffusion == FluxDiffusion::weighted_mean,
             "flux_diffusion", double(o.flux_diffusion), "a FluxDiffusion");
     require(o.cos_same_surface >= -1 && o.cos_same_surface <= 1, "cos_same_surface", o.cos_same_surface, "-1 to 1");
-    require(o.leash > 0 && isfinite(o.leash), "leash", o.leash, "positive and finite");
+    require(o.leash > 0 && o.leash <= 16, "leash", o.leash, "above 0 and at most 16");
 }
 } // namespace detail
 

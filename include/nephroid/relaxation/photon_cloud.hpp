@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nephroid::detail {
@@ -76,6 +77,13 @@ public:
             std::invoke(access.position, photon_at(photons, tree_.index(slot))) = tree_.origin() + position(slot);
         });
     }
+    /// The same for normals.
+    template <class Photons, class Access, class E>
+    void write_normals(Photons& photons, const Access& access, E& executor) const {
+        for_each_slot(tree_, executor, [&](std::size_t slot) {
+            std::invoke(access.normal, photon_at(photons, tree_.index(slot))) = normals_[slot];
+        });
+    }
     /// The same for fluxes.
     template <class Photons, class Access, class E>
         requires MovesPhotons<Access, Photons>
@@ -93,12 +101,21 @@ public:
         return make_vector<V>(tree_.x()[slot], tree_.y()[slot], tree_.z()[slot]);
     }
     [[nodiscard]] const V& normal(std::size_t slot) const { return normals_[slot]; }
+    void set_normal(std::size_t slot, const V& normal) { normals_[slot] = normal; }
     [[nodiscard]] const F& flux(std::size_t slot) const { return fluxes_[slot]; }
     [[nodiscard]] const std::vector<F>& fluxes() const { return fluxes_; }
     [[nodiscard]] std::vector<F>& fluxes() { return fluxes_; }
     [[nodiscard]] bool same_surface(std::size_t a, std::size_t b) const {
-        return dot(normals_[a], normals_[b]) >= cos_same_surface_;
+        if (!(dot(normals_[a], normals_[b]) >= cos_same_surface_))
+            return false;
+        if (sheets_.empty())
+            return true;
+        const V offset = position(b) - position(a);
+        return abs(dot(offset, normals_[a])) <= sheets_[a] && abs(dot(offset, normals_[b])) <= sheets_[b];
     }
+    /// Photons that lie farther off a photon's tangent plane than this belong to another of two parallel sheets.
+    /// @param sheets  by slot, world units; infinity where there is one sheet alone
+    void set_sheets(std::vector<T> sheets) { sheets_ = std::move(sheets); }
 
 private:
     void check(std::size_t slot, const char* who) const {
@@ -118,6 +135,7 @@ private:
     PointTree<V> tree_;
     std::vector<V> normals_;
     std::vector<F> fluxes_;
+    std::vector<T> sheets_; ///< by slot, or empty
     T cos_same_surface_;
 };
 

@@ -8,39 +8,50 @@
 /// nephroid::relax(photons, nephroid::photon_access(&MyPhoton::position, &MyPhoton::normal, &MyPhoton::flux),
 ///                 nephroid::RelaxationOptions::keeping_density(), threads);
 /// ```
+///
+/// On a table of 1 by 2, from which no photon is to fall:
+///
+/// ```cpp
+/// const auto on_table = [](std::size_t, const V& p) { return V(clamp(p.x, 0, 1), clamp(p.y, 0, 2), 0); };
+/// nephroid::relax(photons, access, options, threads, on_table);
+/// ```
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/relaxation/options.hpp"
+#include "nephroid/relaxation/parallel_sheets.hpp"
 #include "nephroid/relaxation/photon_access.hpp"
 #include "nephroid/relaxation/photon_cloud.hpp"
 #include "nephroid/relaxation/relaxer.hpp"
+#include "nephroid/relaxation/surface_projection.hpp"
+
+#include <algorithm>
 
 namespace nephroid {
 
-/// Leaves a moved photon in its tangent plane: for flat surfaces, and where the surface is not known.
-struct StayInPlane {
-    template <class V>
-    [[nodiscard]] const V& operator()(std::size_t, const V& position) const {
-        return position;
-    }
-};
-
 namespace detail {
+/// k for estimates from a relaxed map: more where the map has so little detail that its pilot took many.
+[[nodiscard]] inline std::size_t estimate_neighbours(unsigned pilot_neighbours) {
+    return std::clamp(std::size_t(pilot_neighbours) / 16, std::size_t(20), std::size_t(80));
+}
+
 /// Goes on to the last iteration.
 struct Continue {
     [[nodiscard]] bool operator()(unsigned) const { return true; }
 };
 } // namespace detail
 
-/// Relaxes photons: writes their positions, and their fluxes if `options.flux_diffusion` says so. Nothing else of a
+/// Relaxes photons: writes their positions, their fluxes if `options.flux_diffusion` says so, and their normals if
+/// `project` does. Nothing else of a
 /// photon changes, and the range keeps its photons in their order.
 ///
 /// @param photons   a random-access range of the user's photons; untouched if an exception is thrown
 /// @param access    `photon_access(…)`: a photon's position, normal and flux
 /// @param executor  who runs the work; the result is the same bit for bit for any number of threads
-/// @param project   project(photon index, position) -> position: puts a moved photon back on its curved surface. Its
-///                  normal is not changed, so the position should not be far. Called from several threads at once.
+/// @param project   project(photon index, position) -> position: puts a moved photon back on its surface, one that is
+///                  curved or has a border. It may return a `SurfacePoint` instead, whose normal the photon takes on:
+///                  the access's normal then refers to what can be written. Without it photons leave their surface at
+///                  its borders, by less than the leash. Called from several threads at once.
 /// @param progress  progress(iteration) -> bool: called by the calling thread after each iteration, from 0; false stops
 ///                  there and writes the photons as they are
 /// Throws std::invalid_argument naming the photon whose position, normal or flux cannot be, or the option.
@@ -55,31 +66,29 @@ template <class Photons, class Access, class E = SerialExecutor, class Project =
         using Cloud = detail::PhotonCloud<V, detail::flux_t<Photons, Access>>;
         detail::check(options, "relax");
         Cloud cloud(photons, access, options.cos_same_surface, "nephroid::relax");
+        detail::separate_sheets(cloud, executor);
         detail::Relaxer<Cloud> relaxer(cloud, options, executor);
         RelaxationReport report;
         report.photons = std::size_t(std::ranges::size(photons));
         report.feature_searches = relaxer.searches();
         report.constrained_photons = relaxer.constrained_photons();
+        report.pilot_neighbours = relaxer.pilot().neighbours;
+        report.stratified = relaxer.pilot().stratified;
+        report.pilot_unjudged = !relaxer.pilot().judged && !report.stratified;
+        report.estimate_neighbours = detail::estimate_neighbours(report.pilot_neighbours);
 
-        const auto put_back = [&](std::size_t slot, const V& position) -> V {
-            if constexpr (std::is_same_v<Project, StayInPlane>) {
-                return position;
-            } else {
-                const std::size_t photon = cloud.tree().index(slot);
-                const V there = project(photon, V(cloud.tree().origin() + position));
-                if (!all_finite(there))
-                    invalid_argument(std::string("nephroid::relax: project put photon ") + std::to_string(photon) +
-                                     " at " + detail::text_of(there) + "; every position must be finite");
-                return cloud.tree().relative(there);
-            }
-        };
+        detail::SurfaceProjection<Cloud, Project> on_surface(cloud, project);
+        const auto put_back = [&](std::size_t slot, const V& position) { return on_surface(slot, position); };
         for (bool go_on = report.photons > 0; go_on && report.iterations < options.iterations;) {
             const double moves = relaxer.step(report.iterations, executor, put_back);
+            on_surface.turn_normals(executor);
             report.mean_step.push_back(moves / double(report.photons));
             go_on = progress(report.iterations++);
         }
         if (report.iterations > 0)
             cloud.write_positions(photons, access, executor);
+        if constexpr (on_surface.turns_normals)
+            cloud.write_normals(photons, access, executor);
         if (report.iterations > 0 && options.flux_diffusion != FluxDiffusion::none)
             cloud.write_fluxes(photons, access, executor);
         return report;

@@ -6,12 +6,14 @@
 #include "nephroid/relaxation/flux_exchange.hpp"
 #include "nephroid/relaxation/leash.hpp"
 #include "nephroid/relaxation/neighbourhood.hpp"
+#include "nephroid/relaxation/pilot_choice.hpp"
 #include "nephroid/relaxation/repulsion.hpp"
 #include "nephroid/relaxation/separation.hpp"
 #include "nephroid/relaxation/target_spacing.hpp"
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -37,14 +39,18 @@ public:
           next_radius_(reach_.size()) {
         if (options.constrain)
             constrain(executor);
-        if (options.pilot_neighbours > 0)
-            target_.emplace(cloud, options.pilot_neighbours, constraints_, executor);
+        pilot_ = {options.pilot_neighbours, false, true};
+        if (pilot_.neighbours == RelaxationOptions::chosen_by_map)
+            pilot_ = choose_pilot(cloud, executor);
+        if (pilot_.neighbours > 0)
+            target_.emplace(cloud, pilot_.neighbours, constraints_, executor);
         if (options.flux_diffusion != FluxDiffusion::none)
             exchange_.emplace(cloud, options);
         for (const TreeLeaf& leaf : cloud.tree().leaves())
             guess_reach(cloud.tree(), leaf, search_count(), reach_);
     }
 
+    [[nodiscard]] const PilotChoice& pilot() const { return pilot_; }
     [[nodiscard]] std::size_t searches() const { return searches_; }
     [[nodiscard]] std::size_t constrained_photons() const {
         std::size_t count = 0;
@@ -70,15 +76,18 @@ public:
         const auto advance = [&](std::uint32_t leaf, std::size_t slot, std::span<Neighbour<T>> found) {
             const V from = cloud_->position(slot);
             const std::span<const Neighbour<T>> pushing = in_spacings(slot, found);
-            T radius = pushing.empty() ? T(0) : sqrt(pushing.back().distance2);
-            if (!(radius > T(0)))
+            // With fewer than K + 1 others there is no disc: the photon stays.
+            const bool alone = pushing.size() < std::size_t(options_->neighbours + 1);
+            T radius = alone ? T(0) : sqrt(pushing.back().distance2);
+            const bool heap = !alone && !(radius > T(0));
+            if (heap)
                 radius = distance_to_others(slot);
             V to = from;
             if (radius > T(0)) {
                 if (iteration == 0)
                     leash_->set_radius(slot, radius);
                 const T limit_radius = iteration > 0 && radius_[slot] > T(0) ? radius_[slot] : radius;
-                const V step = fraction * move(slot, pushing, radius, relaxation, limit_radius);
+                const V step = fraction * move(slot, pushing, radius, relaxation, limit_radius, heap);
                 to = leash_->held(slot, from, project(slot, V(from + step)));
                 moves[leaf] += double(length(V(to - from)) / radius);
             }
@@ -132,16 +141,16 @@ private:
         });
     }
 
-    /// Where K + 1 photons coincide: the distance to the nearest photon that does not, among 8 (K + 1); 0 if there is
-    /// none.
+    /// Where K + 1 photons coincide: the distance to the nearest photon that does not; 0 if there is none.
     [[nodiscard]] T distance_to_others(std::size_t slot) const {
-        std::vector<Neighbour<T>> nearest(8 * (options_->neighbours + 1));
-        nearest.resize(cloud_->tree().nearest(cloud_->position(slot), nearest));
-        T distance2(0);
-        for (const Neighbour<T>& other : nearest)
-            if (other.distance2 > T(0) && !(distance2 > T(0) && distance2 < other.distance2))
-                distance2 = other.distance2;
-        return sqrt(distance2);
+        const V position = cloud_->position(slot);
+        std::array<Neighbour<T>, 1> nearest;
+        const auto elsewhere = [&](std::size_t other) {
+            return length2(V(cloud_->position(other) - position)) > T(0) && cloud_->same_surface(slot, other);
+        };
+        const std::size_t found =
+            cloud_->tree().nearest(position, nearest, std::numeric_limits<T>::infinity(), elsewhere);
+        return found > 0 ? sqrt(nearest[0].distance2) : T(0);
     }
 
     /// Sorts the neighbours found by their distances in units of the target spacing.
@@ -161,8 +170,9 @@ private:
     ///
     /// @param found         nearest first; the last one gives the radius and does not push
     /// @param limit_radius  r_p of eq. 11: the radius of the iteration before, which avoids artefacts
-    [[nodiscard]] V move(std::size_t slot, std::span<const Neighbour<T>> found, T radius, T relaxation,
-                         T limit_radius) const {
+    /// @param heap          the neighbours lie where the photon does: a feature, but one that would hold them for ever
+    [[nodiscard]] V move(std::size_t slot, std::span<const Neighbour<T>> found, T radius, T relaxation, T limit_radius,
+                         bool heap) const {
         const V position = cloud_->position(slot);
         V force = zero_vector<V>();
         for (std::size_t k = 0; k + 1 < found.size(); ++k) {
@@ -172,7 +182,7 @@ private:
                                               : radius * relaxation * separation_direction(*cloud_, slot, other));
         }
         force = in_tangent_plane<V>(T(1) / T(options_->neighbours) * force, cloud_->normal(slot));
-        if (!constraints_.empty())
+        if (!constraints_.empty() && !heap)
             force = constrained(force, constraints_[slot]);
         if (options_->rho > 0)
             force = diffusion_limit<T>(length2(force), square(limit_radius), T(options_->rho)) * force;
@@ -188,6 +198,7 @@ private:
     std::optional<Leash<T>> leash_;
     std::optional<TargetSpacing<Cloud>> target_;
     std::optional<FluxExchange<Cloud>> exchange_;
+    PilotChoice pilot_{0, false, true};
     std::size_t searches_ = 0;
 };
 
