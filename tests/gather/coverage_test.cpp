@@ -48,13 +48,15 @@ TEST_CASE("coverage: at a border estimates divide by the share on the surface") 
     const auto photons = lattice(64);
     const auto map = map_of_stored(photons);
     const SampledCoverage coverage(on_square, BiweightKernel{});
-    const FixedRange bare(map, {.range = 0.1}), divided(map, {.range = 0.1}, BiweightKernel{}, coverage);
+    const FixedRange bare(map, {.range = 0.1});
+    const FixedRange divided(map, {.range = 0.1}, BiweightKernel{}, coverage);
     for (const V& place : {V(0, 0.5, 0), V(0.03, 0.4, 0), V(0.5, 1, 0), V(0, 0, 0), V(1, 0.02, 0)}) {
         CHECK(divided(place, up) == doctest::Approx(1).epsilon(0.08));
         CHECK(bare(place, up) < 0.8);
     }
     CHECK(divided(V(0.5, 0.5, 0), up) == bare(V(0.5, 0.5, 0), up));
-    const NearestPhotons nearest(map, {.count = 100}), covered(map, {.count = 100}, BiweightKernel{}, coverage);
+    const NearestPhotons nearest(map, {.count = 100});
+    const NearestPhotons covered(map, {.count = 100}, BiweightKernel{}, coverage);
     for (const V& place : {V(0, 0.5, 0), V(0.03, 0.4, 0), V(0.5, 1, 0), V(0, 0, 0)})
         CHECK(covered(place, up) == doctest::Approx(1).epsilon(0.12)); // the k-th of a lattice comes in steps
     CHECK(nearest(V(0, 0.5, 0), up) < 0.7);
@@ -71,6 +73,5 @@ TEST_CASE("coverage: a share that cannot be is taken as one") {
         CHECK(estimate(V(0.5, 0.5, 0), up) == bare(V(0.5, 0.5, 0), up));
     }
     const auto half = [](const V&, const V&, double) { return 0.5; };
-    CHECK(FixedRange(map, {.range = 0.1}, BiweightKernel{}, half)(V(0.5, 0.5, 0), up) ==
-          2 * bare(V(0.5, 0.5, 0), up));
+    CHECK(FixedRange(map, {.range = 0.1}, BiweightKernel{}, half)(V(0.5, 0.5, 0), up) == 2 * bare(V(0.5, 0.5, 0), up));
 }

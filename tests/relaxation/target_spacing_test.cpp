@@ -147,6 +147,7 @@ TEST_CASE("target spacing: ripples of density stay as they are and without a tar
     const auto start = ripples(3000, 36);
     RelaxationOptions options = RelaxationOptions::keeping_density();
     options.constrain = false;
+    options.pilot_neighbours = 150;
     auto kept = start, levelled = start;
     relax(kept, access_to<Stored>(), options, SerialExecutor{});
     options.pilot_neighbours = 0;

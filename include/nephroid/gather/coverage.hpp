@@ -94,8 +94,7 @@ concept MustBeCoverage = DiskCoverage<C, V> || explain_coverage<C, V>();
 
 /// An estimate over a disk that the surface fills in part only.
 template <class C, class F, class V>
-[[nodiscard]] F over_coverage(const C& coverage, const F& sum, const V& position, const V& normal,
-                              scalar_t<V> radius) {
+[[nodiscard]] F over_coverage(const C& coverage, const F& sum, const V& position, const V& normal, scalar_t<V> radius) {
     using T = scalar_t<V>;
     if constexpr (std::same_as<C, WholeDisk>) {
         return sum;

@@ -33,8 +33,8 @@ public:
     /// Throws std::invalid_argument for a range that is not positive and finite and a normal distance that is not
     /// positive.
     FixedRange(const PhotonMap<V, F>& map, FixedRangeOptions options, K kernel = {}, C coverage = {})
-        : map_(&map), range_(T(options.range)), thickness_(T(options.normal_distance * options.range)),
-          kernel_(kernel), coverage_(std::move(coverage)) {
+        : map_(&map), range_(T(options.range)), thickness_(T(options.normal_distance * options.range)), kernel_(kernel),
+          coverage_(std::move(coverage)) {
         detail::check_radius<T>("nephroid::FixedRange", "range", options.range, false);
         detail::check_positive("nephroid::FixedRange", "normal_distance", options.normal_distance, true);
     }

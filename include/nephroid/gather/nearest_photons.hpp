@@ -64,7 +64,8 @@ public:
         if (!(least_radius_ > T(0))) // one place, perhaps the world's origin: any radius whose square can be divided by
             least_radius_ = sqrt(sqrt((std::numeric_limits<T>::min)()));
     }
-    NearestPhotons(const PhotonMap<V, F>&&, NearestPhotonsOptions = {}, K = {}, C = {}) = delete; // would refer to a temporary
+    NearestPhotons(const PhotonMap<V, F>&&, NearestPhotonsOptions = {}, K = {},
+                   C = {}) = delete; // would refer to a temporary
 
     /// The irradiance at a point of a surface; a position or normal that is not finite receives nothing.
     /// @param normal  unit; photons on the other side do not count
@@ -83,8 +84,7 @@ public:
         const std::span<Neighbour<T>> room = detail::neighbours<T>(wanted);
         const std::size_t found =
             map_->tree().nearest(relative, room, range2_, [&](std::size_t slot) { return map_->faces(slot, normal); });
-        const T least_radius =
-            (std::max)(least_radius_, T(4) * std::numeric_limits<T>::epsilon() * length(position));
+        const T least_radius = (std::max)(least_radius_, T(4) * std::numeric_limits<T>::epsilon() * length(position));
         const auto [neighbours, radius2] = disk(room.first(found), square(least_radius));
         if (!(radius2 > T(0)))
             return sum;

@@ -101,7 +101,7 @@ struct RelaxationReport {
     bool pilot_unjudged = false;
     /// k for an estimate from the relaxed map with a kernel that fades (`NearestPhotons`).
     std::size_t estimate_neighbours = 20;
-    std::vector<double> mean_step;       ///< per iteration: a photon's move over the radius of its neighbourhood
+    std::vector<double> mean_step; ///< per iteration: a photon's move over the radius of its neighbourhood
 };
 
 namespace detail {

@@ -59,8 +59,7 @@ void separate_sheets(Cloud& cloud, E& executor) {
                 for (const Neighbour<T>& other : found)
                     search.heights.push_back(dot(V(cloud.position(other.slot) - position), cloud.normal(slot)));
                 const T scale = length(position) + sqrt(found.back().distance2);
-                sheets[slot] =
-                    sheet_reach<T>(search.heights, T(256) * std::numeric_limits<T>::epsilon() * scale);
+                sheets[slot] = sheet_reach<T>(search.heights, T(256) * std::numeric_limits<T>::epsilon() * scale);
             });
     });
     if (std::any_of(sheets.begin(), sheets.end(), [](const T& sheet) { return isfinite(sheet); }))

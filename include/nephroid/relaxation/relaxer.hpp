@@ -81,7 +81,7 @@ public:
             T radius = alone ? T(0) : sqrt(pushing.back().distance2);
             const bool heap = !alone && !(radius > T(0));
             if (heap)
-                radius = distance_to_others(slot);
+                radius = distance_to_others(*cloud_, slot);
             V to = from;
             if (radius > T(0)) {
                 if (iteration == 0)
@@ -141,18 +141,6 @@ private:
         });
     }
 
-    /// Where K + 1 photons coincide: the distance to the nearest photon that does not; 0 if there is none.
-    [[nodiscard]] T distance_to_others(std::size_t slot) const {
-        const V position = cloud_->position(slot);
-        std::array<Neighbour<T>, 1> nearest;
-        const auto elsewhere = [&](std::size_t other) {
-            return length2(V(cloud_->position(other) - position)) > T(0) && cloud_->same_surface(slot, other);
-        };
-        const std::size_t found =
-            cloud_->tree().nearest(position, nearest, std::numeric_limits<T>::infinity(), elsewhere);
-        return found > 0 ? sqrt(nearest[0].distance2) : T(0);
-    }
-
     /// Sorts the neighbours found by their distances in units of the target spacing.
     /// @return  those that push the photon, and one more
     [[nodiscard]] std::span<const Neighbour<T>> in_spacings(std::size_t slot, std::span<Neighbour<T>> found) const {
@@ -182,7 +170,9 @@ private:
                                               : radius * relaxation * separation_direction(*cloud_, slot, other));
         }
         force = in_tangent_plane<V>(T(1) / T(options_->neighbours) * force, cloud_->normal(slot));
-        if (!constraints_.empty() && !heap)
+        if (heap) // or the damping, which takes them for far too strong, would leave most where they are
+            force = (T(0.25) * radius / (std::max)(T(0.25) * radius, T(length(force)))) * force;
+        else if (!constraints_.empty() && found.front().distance2 > T(0)) // two in one place part along an edge or not
             force = constrained(force, constraints_[slot]);
         if (options_->rho > 0)
             force = diffusion_limit<T>(length2(force), square(limit_radius), T(options_->rho)) * force;

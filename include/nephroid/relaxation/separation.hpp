@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
-/// @file  In which direction photons in the same place move apart.
+/// @file  How photons in the same place move apart: in which direction, and by what measure of length.
 #pragma once
 
 #include "nephroid/sequence/hash.hpp"
+#include "nephroid/tree/point_tree.hpp"
 #include "nephroid/vector/frame.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 namespace nephroid::detail {
 
@@ -24,6 +27,23 @@ template <class Cloud>
     const Frame<V> frame = frame_about(cloud.normal(first));
     const V direction = T(std::cos(angle)) * frame.u + T(std::sin(angle)) * frame.v;
     return i < j ? direction : -direction;
+}
+
+/// The distance from photons that coincide to the nearest one on their surface that does not; 0 if there is none.
+template <class Cloud>
+[[nodiscard]] typename Cloud::T distance_to_others(const Cloud& cloud, std::size_t slot) {
+    using V = typename Cloud::vector;
+    using T = typename Cloud::T;
+    const Box<T> bounds = cloud.tree().bounds();
+    if (bounds.low == bounds.high)
+        return T(0); // all in one place: each would look at all
+    const V position = cloud.position(slot);
+    std::array<Neighbour<T>, 1> nearest;
+    const auto elsewhere = [&](std::size_t other) {
+        return length2(V(cloud.position(other) - position)) > T(0) && cloud.same_surface(slot, other);
+    };
+    const std::size_t found = cloud.tree().nearest(position, nearest, std::numeric_limits<T>::infinity(), elsewhere);
+    return found > 0 ? sqrt(nearest[0].distance2) : T(0);
 }
 
 } // namespace nephroid::detail

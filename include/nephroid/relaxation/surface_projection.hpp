@@ -50,7 +50,8 @@ public:
         if constexpr (std::is_same_v<Project, StayInPlane>) {
             return position;
         } else if constexpr (turns_normals) {
-            const SurfacePoint<V> point = (*project_)(cloud_->tree().index(slot), V(cloud_->tree().origin() + position));
+            const SurfacePoint<V> point =
+                (*project_)(cloud_->tree().index(slot), V(cloud_->tree().origin() + position));
             if (!(abs(length2(point.normal) - scalar_t<V>(1)) < scalar_t<V>(0.01)))
                 invalid_argument(photon(slot) + " a normal of " + text_of(point.normal) +
                                  "; every normal must be of unit length");
