@@ -8,8 +8,8 @@
 
 namespace nephroid::detail {
 
-/// 2 I₁(a)/a, with I₁ the modified Bessel function, and its derivative 2 I₂(a)/a: the mean of exp(a x) over the unit
-/// disc, and of x exp(a x).
+/// The mean of exp(a x) over the unit disc, 2 I₁(a)/a with I₁ the modified Bessel function, and that of x exp(a x), its
+/// derivative 2 I₂(a)/a.
 struct DiscExponential {
     double mean, slope;
 };
@@ -28,9 +28,9 @@ struct DiscExponential {
     return sum;
 }
 
-/// The logarithm of how many times better a density ∝ exp(a x) explains photons in the unit disc than an even one does,
-/// for the a that explains them best: n (a x̄ − ln(2 I₁(a)/a)), whose derivative vanishes where the disc's own mean of x
-/// is x̄.
+/// The logarithm of how many times better a density ∝ exp(a x) explains photons in the unit disc than an even one
+/// does, for the a that explains them best: n (a x̄ − ln(2 I₁(a)/a)), whose derivative vanishes where the disc's own
+/// mean of x is x̄.
 ///
 /// @param count  n
 /// @param mean   x̄, the photons' mean coordinate along their gradient, in [0, 1]

@@ -54,8 +54,8 @@ struct RelaxationOptions {
     /// does, at least; >= 0. With `gap_variation` for features of flux alone.
     double evidence = 8;
     /// The same against a density that grows evenly, exponentially, across the neighbourhood: 0 does not ask, and takes
-    /// steep slopes for edges, as the paper does. Not with `gap_variation`. Relaxation that keeps densities need not hold
-    /// slopes, and what it does hold stays noisy.
+    /// steep slopes for edges, as the paper does. Not with `gap_variation`. Relaxation that keeps densities need not
+    /// hold slopes, and what it does hold stays noisy.
     double edge_evidence = 0;
     /// Whether features are also searched for in the photons' flux, its intensity and its colour.
     bool flux_features = true;
@@ -94,8 +94,8 @@ struct RelaxationReport {
     std::size_t feature_searches = 0;    ///< neighbourhoods of `feature_neighbours` that were searched
     std::size_t constrained_photons = 0; ///< photons with a weight above 0
     unsigned pilot_neighbours = 0;       ///< from which the densities kept were estimated; 0 if none were
-    /// The photons avoid each other already, as those of a low-discrepancy sequence do on plain ways: there is little to
-    /// gain from relaxing them. Known only if the map chose the pilot, as the next.
+    /// The photons avoid each other already, as those of a low-discrepancy sequence do on plain ways: there is little
+    /// to gain from relaxing them. Known only if the map chose the pilot, as the next.
     bool stratified = false;
     /// The map had too few photons, or none away from its borders, to choose: 150 were taken.
     bool pilot_unjudged = false;
