@@ -8,8 +8,8 @@
 
 namespace nephroid::detail {
 
-/// The mean of exp(a x) over the unit disc, 2 I₁(a)/a with I₁ the modified Bessel function, and that of x exp(a x), its
-/// derivative 2 I₂(a)/a.
+/// The mean of exp(a x) over the unit disc, 2 I₁(a)/a with I₁ the modified Bessel function, and that of x exp(a x),
+/// its derivative 2 I₂(a)/a.
 struct DiscExponential {
     double mean, slope;
 };
@@ -29,7 +29,7 @@ struct DiscExponential {
 }
 
 /// The logarithm of how many times better a density ∝ exp(a x) explains photons in the unit disc than an even one
-/// does, for the a that explains them best: n (a x̄ − ln(2 I₁(a)/a)), whose derivative vanishes where the disc's own
+/// does, for the a that explains them best: n (a x̄ − ln(2 I₁(a)/a)). Its derivative vanishes where the disc's own
 /// mean of x is x̄.
 ///
 /// @param count  n
