@@ -75,7 +75,7 @@ done
 # Nor is what chooses footprints for other kinds of lights in a program that has a sun alone.
 "$cxx" $flags -O0 -fno-inline -c "$root/examples/drop_in.cpp" -o sun.o
 nm --demangle sun.o >symbols.txt
-grep -q 'nephroid::detail::SheetField::' symbols.txt || fail "no symbols of the sun's footprints"
+grep -q 'nephroid::detail::GroupField::' symbols.txt || fail "no symbols of the sun's footprints"
 for unused in AreaField:: AreaFit:: AreaCells:: smoothing_without_cells; do
     ! grep -q "nephroid::.*$unused" symbols.txt || fail "$unused is compiled for a sun"
 done

@@ -111,7 +111,7 @@ constexpr std::size_t many = 20000;
 } // namespace
 
 // The ratio of two variances of 20000 numbers each is right to 1.4%: five such are 0.1 in its logarithm.
-TEST_CASE("cross-validation: how fast noise falls is seen from quarters and halves") {
+TEST_CASE("cross-validation: quarters and halves show how fast the noise falls") {
     Draws draw(7);
     QuarterPictures random; // independent quarters
     for (std::size_t i = 0; i < many; ++i)
@@ -125,7 +125,7 @@ TEST_CASE("cross-validation: how fast noise falls is seen from quarters and halv
     CHECK(detail::noise_order(noisy(3)) == 2);
 }
 
-TEST_CASE("cross-validation: nothing to tell the noise from is taken for random photons") {
+TEST_CASE("cross-validation: pictures without noise count as random photons") {
     CHECK(detail::noise_order(QuarterPictures{}) == 1);
     const std::vector<double> even(10, 3.0);
     CHECK(detail::noise_order({even, even, even, even}) == 1);
@@ -159,7 +159,7 @@ struct Trial {
 // Trials share the photons: the noise of the smooth ones is that of the sharp ones, damped. What is computed differs
 // from the true error by a constant and by sums of n products of noise with noise or bias, each at most 1 wide: 4
 // sqrt(n).
-TEST_CASE("cross-validation: errors are those against the truth but for a constant") {
+TEST_CASE("cross-validation: the error is that against the truth plus a constant") {
     const double tolerance = 4 * std::sqrt(double(many));
     for (const bool stratified : {false, true}) {
         // Noise of four quarters, each of variance 1, whose correlation makes halves and the whole quieter.
@@ -192,7 +192,7 @@ TEST_CASE("cross-validation: errors are those against the truth but for a consta
     }
 }
 
-TEST_CASE("cross-validation: a sample of leaves takes one of so many neighbours") {
+TEST_CASE("leaf sample: one leaf is chosen out of every few") {
     const auto vertices = floor_of<Vec<double>>(128);
     const auto map = map_of(vertices);
     for (const std::size_t wanted : {1000u, 4096u, 16384u, 1000000u}) {
@@ -215,8 +215,8 @@ TEST_CASE("cross-validation: a sample of leaves takes one of so many neighbours"
     }
 }
 
-TEST_CASE_TEMPLATE("cross-validation: photons of a light that nothing is known of all get the smoothing chosen", T,
-                   float, double) {
+TEST_CASE_TEMPLATE("cross-validation: all photons of a light without a domain get the chosen smoothing", T, float,
+                   double) {
     using V = Vec<T>;
     const Undescribed<DirectionalLight<V, T>> light{sun<V>()};
     PhotonPass pass{.count = 3000};
@@ -235,7 +235,7 @@ TEST_CASE_TEMPLATE("cross-validation: photons of a light that nothing is known o
 }
 
 // The light's own photons have cells; only those of the light without may change when its smoothing does.
-TEST_CASE("cross-validation: lights that are known are splatted as without the unknown ones") {
+TEST_CASE("cross-validation: lights with a domain are splatted as if lights without one were absent") {
     using V = Vec<double>;
     using Known = DirectionalLight<V, double>;
     using Set = LightSet<Known, Undescribed<Known>>;
@@ -249,7 +249,7 @@ TEST_CASE("cross-validation: lights that are known are splatted as without the u
           doctest::Approx(2 * of_known).epsilon(0.05)); // the same light twice, by chance half of the photons each
 }
 
-TEST_CASE("cross-validation: any number of threads chooses the same bit for bit") {
+TEST_CASE("cross-validation: any number of threads chooses the same smoothing bit for bit") {
     using V = Vec<float>;
     const double serial = chosen_for(ball<V>(), sun<V>(), {.count = 3000});
     for (const unsigned threads : {1u, 2u, 5u}) {
@@ -258,7 +258,7 @@ TEST_CASE("cross-validation: any number of threads chooses the same bit for bit"
     }
 }
 
-TEST_CASE("cross-validation: too few photons or none in view give the default") {
+TEST_CASE("cross-validation: too few photons in view give the default smoothing") {
     using V = Vec<double>;
     CHECK(chosen_for(ball<V>(), sun<V>(), {.count = 60}) == default_smoothing);
     CHECK(chosen_for(ball<V>(), sun<V>(), {.count = 3000}, HaltonSequence(1), SerialExecutor{}, 0) ==
@@ -280,7 +280,7 @@ TEST_CASE("cross-validation: a pass of no photons is refused") {
 
 // What is compared is the same, so that only the number of photons to come makes a difference: its cube root for random
 // ones.
-TEST_CASE("cross-validation: a longer pass takes a larger smoothing of smaller footprints") {
+TEST_CASE("cross-validation: a longer pass gets a larger smoothing and smaller footprints") {
     using V = Vec<double>;
     const auto vertices = floor_of<V>(32);
     const auto map = map_of(vertices);

@@ -149,7 +149,8 @@ struct Flawed : L {
 
 } // namespace
 
-TEST_CASE_TEMPLATE("first order: gives the bits that photons splatted one by one give", T, float, double) {
+TEST_CASE_TEMPLATE("first order: the picture is the same bit for bit as of photons splatted one by one", T, float,
+                   double) {
     using V = Vec<T>;
     for (const std::optional<double> smoothing : {std::optional<double>(), std::optional<double>(3.7)}) {
         const PhotonPass pass{.first = 5, .count = 3000, .smoothing = smoothing};
@@ -166,7 +167,7 @@ TEST_CASE_TEMPLATE("first order: gives the bits that photons splatted one by one
     }
 }
 
-TEST_CASE_TEMPLATE("second order: no flux is lost and shifted photons end as they would have", T, float, double) {
+TEST_CASE_TEMPLATE("second order: no flux is lost and shifts change no photon's fate", T, float, double) {
     using V = Vec<T>;
     const auto check = [&](const auto& light, const auto& sequence) {
         const auto second = render(ball<V>(), light, {.count = 5000}, sequence),
@@ -221,7 +222,7 @@ TEST_CASE("second order: any number of threads renders the same picture bit for 
     }
 }
 
-TEST_CASE("second order: photons beyond the pilot are placed by it") {
+TEST_CASE("second order: photons after the pilot get footprints chosen from the pilot") {
     using V = Vec<double>;
     const auto whole = render(ball<V>(), sun<V>(), {.count = 8000});
     const Default policies{.order = {.pilot = 4000}};
@@ -237,7 +238,7 @@ TEST_CASE("second order: photons beyond the pilot are placed by it") {
     CHECK(difference2 < square(0.1) * sum2); // the same photons with footprints of about the same size
 }
 
-TEST_CASE("second order: a pass that is stopped within its pilot counts what was splatted and no more") {
+TEST_CASE("second order: a pass stopped within its pilot counts only the photons that were splatted") {
     using V = Vec<float>;
     PhotonPass pass{.count = 20000};
     std::uint64_t reached = 0;
@@ -272,7 +273,7 @@ TEST_CASE_TEMPLATE("second order: a pass of a few photons is splatted", T, float
     }
 }
 
-TEST_CASE_TEMPLATE("second order: photons without flux or with tangents that are no numbers spoil nothing", T, float,
+TEST_CASE_TEMPLATE("second order: photons without flux or with invalid tangents do not spoil the picture", T, float,
                    double) {
     using V = Vec<T>;
     const Flawed<DirectionalLight<V, T>> light{sun<V>()};
@@ -290,7 +291,7 @@ TEST_CASE_TEMPLATE("second order: photons without flux or with tangents that are
     }
 }
 
-TEST_CASE("second order: of several lights each keeps to its own photons") {
+TEST_CASE("second order: footprints of a light are chosen from its own photons") {
     using V = Vec<double>;
     const auto lights = StandardLights<V, double>({bulb<V>(), disk<V>()});
     const auto picture = render(ball<V>(), lights, {.count = 20000}, RandomSequence(3));
@@ -330,7 +331,7 @@ TEST_CASE_TEMPLATE("second order: takes any vector", T, float, double) {
 
 // Shapes and shifts are constants to dual numbers; where the map is straight and the smoothing given they are
 // constants.
-TEST_CASE("second order: dual numbers bring the derivative of what a straight map does") {
+TEST_CASE("second order: dual numbers carry derivatives through a straight map") {
     const auto at_height = []<class T>(const T& depth) {
         using V = foreign::Plain<T>;
         struct Water {
@@ -365,7 +366,7 @@ TEST_CASE("second order: dual numbers bring the derivative of what a straight ma
 
 // What a lamp draws besides its coordinates is no reason to lose its photons' neighbours: each splat lies where that of
 // the plain sun does.
-TEST_CASE_TEMPLATE("second order: a light that draws a wavelength as well keeps its fields", T, float, double) {
+TEST_CASE_TEMPLATE("second order: a light that also draws a wavelength still has fields", T, float, double) {
     using V = Vec<T>;
     const auto placed = [](const auto& light) {
         using L = std::remove_cvref_t<decltype(light)>;
@@ -376,11 +377,11 @@ TEST_CASE_TEMPLATE("second order: a light that draws a wavelength as well keeps 
         const Default policies;
         const auto pilot = detail::trace_pilot(ball<V>(), light, pass, policies.order, sequence, executor);
         const auto footprints =
-            detail::footprints_from<emission_domains<L>>(pilot, pass, policies, 100.0, true, executor);
+            detail::fit_footprints<emission_domains<L>>(pilot, pass, policies, 100.0, true, executor);
         std::vector<V> places;
         std::size_t moved = 0;
         for (auto photon : pilot.photons) {
-            CHECK(footprints.has_cells(photon.sample));
+            CHECK(footprints.has_neighbours(photon.sample));
             if (!photon.deposit)
                 continue;
             const V before = photon.deposit->position;

@@ -39,7 +39,7 @@ static_assert(std::is_same_v<decltype(Default::order), SecondOrder>);
 static_assert(std::is_same_v<decltype(Published::order), FirstOrder>);
 static_assert(std::is_empty_v<FirstOrder>);
 
-TEST_CASE("second-order policy: the defaults and bounds without end are taken") {
+TEST_CASE("second-order policy: defaults and infinite upper bounds are accepted") {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CHECK(complaint_about({}) == "none");
     CHECK(complaint_about({.bounds = {.largest_radius = infinity, .stretch = infinity}, .largest_shift = infinity}) ==
@@ -49,7 +49,7 @@ TEST_CASE("second-order policy: the defaults and bounds without end are taken") 
                            .pilot = 1}) == "none");
 }
 
-TEST_CASE("second-order policy: what cannot be is named") {
+TEST_CASE("second-order policy: the message names the option that makes no sense") {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     const auto check = [](const SecondOrder& order, const std::string& words) {
         const std::string complaint = complaint_about(order);
@@ -69,7 +69,7 @@ TEST_CASE("second-order policy: what cannot be is named") {
     check({.pilot = 0}, "pilot is 0");
 }
 
-TEST_CASE("second-order policy: the largest footprint is the same part of the domain from 80000 photons on") {
+TEST_CASE("second-order policy: from 80000 photons on the largest footprint is a constant part of the domain") {
     const SmoothingBounds bounds{.least = 4, .least_radius = 3, .largest_radius = 20, .stretch = 5};
     CHECK(bounds_for(bounds, 100).largest_radius == 20);
     CHECK(bounds_for(bounds, 80000).largest_radius == 20);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The one smoothing that suits a pass best, found by comparing pictures from parts of its photons.
+/// @file  Chooses the best single smoothing for a pass by comparing pictures from parts of its photons.
 #pragma once
 
 #include "nephroid/smoothing/cross_validation.hpp"
@@ -9,30 +9,29 @@
 
 namespace nephroid {
 
-/// The smoothing that suits a pass best as a whole, for plain splats: what `PhotonPass::smoothing` takes.
+/// The best single smoothing for a pass of plain splats, to be given as `PhotonPass::smoothing`.
 ///
-/// Second-order splatting chooses a footprint for each photon and asks for none of this, but for photons of lights
-/// whose samples say nothing of which ones are neighbours: for those `caustics` does it by itself.
+/// Second-order splatting does not need it: it chooses a footprint for each photon. For photons without neighbours
+/// (their light declares no domain) `caustics` calls this function by itself.
 ///
 /// ```cpp
 /// pass.smoothing = nephroid::cross_validated_smoothing(scene, light, sums, pass);
 /// nephroid::splat_caustics(scene, light, sums, pass);
 /// ```
 ///
-/// @param sums       tell the map and the response; are left as they are
-/// @param pass       of which up to 65536 photons are traced, the first; its own smoothing does not matter
-/// @param arguments  in any order, none needed: splat policies (`Default` unless told), a sequence, an executor
-/// @return  2.5 to 40 for as many photons as were compared, more for a longer pass; 8 where fewer than 64 of them land.
-///          The same for any number of threads, bit for bit
+/// @param sums       provides the receiver and the response; it is not changed
+/// @param pass       its first photons, 65536 at most, are traced; its own smoothing does not matter
+/// @param arguments  optional, in any order: splat policies (otherwise `Default`), a sequence, an executor
+/// @return  2.5 to 40 if the pass has no more photons than were traced, more for a longer pass; 8 if fewer than 64
+///          land. The same bit for bit for any number of threads
 /// Throws std::invalid_argument for zero photons.
 ///
-/// A vertex is taken to show what is estimated there. Where a renderer adds several up to one pixel, each with a part
-/// of the light (ghosts around a floor that repeats), the borders between the parts are taken for edges, and s is too
-/// small.
+/// Every vertex counts as a pixel. If a renderer adds several vertices to one pixel, each with a part of the light
+/// (copies around a floor that repeats), the borders between these parts look like edges, and the result is too small.
 ///
-/// Cost: tracing those photons, and splatting them onto some 32,000 of the vertices with smoothings of 2.5 up to twice
-/// the one chosen: measured as one to four passes of 20,000 photons onto 512 x 512 vertices, and less than one of
-/// 160,000. Memory: the photons traced, and the sums once more.
+/// Cost: tracing these photons, and splatting them onto about 32,000 of the vertices, with smoothings from 2.5 to twice
+/// the result. Measured: one to four passes of 20,000 photons onto 512 x 512 vertices, and less than one pass of
+/// 160,000. Memory: the traced photons and a copy of the sums.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
                  detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>>)

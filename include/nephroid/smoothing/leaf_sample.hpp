@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Some leaves of a receiver's tree, from all over it.
+/// @file  A random sample of a receiver's leaves, spread evenly over its tree.
 #pragma once
 
 #include "nephroid/sequence/hash.hpp"
@@ -11,10 +11,10 @@
 
 namespace nephroid::detail {
 
-/// One leaf out of every so many neighbours.
+/// Chooses one leaf out of every few consecutive ones.
 class LeafSample {
 public:
-    /// @param vertices  wanted, about
+    /// @param vertices  about how many vertices the chosen leaves should have in all
     template <Vector3 V>
     LeafSample(const PointTree<V>& tree, std::size_t vertices) : leaves_(std::uint32_t(tree.leaves().size())) {
         std::size_t all = 0;
@@ -23,7 +23,7 @@ public:
         every_ = std::uint32_t((std::max<std::size_t>)(1, all / vertices));
     }
 
-    /// Whether the leaf is one of them.
+    /// Whether a leaf was chosen.
     [[nodiscard]] bool operator()(std::uint32_t leaf) const { return leaf == chosen(leaf / every_); }
 
     template <class Visit>

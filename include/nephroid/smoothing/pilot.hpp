@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The first photons of a pass, traced and kept until their neighbours have told how large they should be.
+/// @file  The pilot: the first photons of a pass, traced before the others to choose all footprints from.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -22,7 +22,9 @@ namespace nephroid::detail {
 template <class L>
 using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type, tangent_count_of<L>>;
 
-/// The photon with an index (of the whole picture, not of the pass), emitted with smoothing 1.
+/// Traces a photon, emitted with smoothing 1.
+///
+/// @param index  of the photon in the whole picture, not in the pass
 template <class S, class L, class Sequence>
 [[nodiscard]] traced_photon_t<L> trace_photon(const S& scene, const L& light, const PhotonPass& pass,
                                               const Sequence& sequence, std::uint64_t index, Statistics& account) {
@@ -31,19 +33,19 @@ template <class S, class L, class Sequence>
     Sampler<Sequence> sampler(sequence, index);
     RecordingSource<Sampler<Sequence>> recorder(sampler, coordinates_of<L>);
     const auto emitted = light.emit(recorder, spread);
-    assert(recorder.is_complete()); // else the light draws fewer numbers than its `domain` has coordinates
+    assert(recorder.is_complete()); // otherwise the light drew fewer numbers than its `domain` has coordinates
     PathSignature signature;
     const auto deposit = walk(scene, emitted, sampler, pass.limits, account, signature);
     return {recorder.sample(), EmissionFrame(emitted), signature.value(), deposit};
 }
 
-/// The first photons of the picture that a pass is a part of: every part of a picture makes the same of them. A pass
+/// The first photons of the picture that a pass is a part of. All passes of one picture make the same pilot. A pass
 /// without a `total` is a picture of its own.
 template <class Photon>
 struct Pilot {
-    std::uint64_t first = 0; ///< index of the first
+    std::uint64_t first = 0; ///< index of the first photon
     std::vector<Photon> photons;
-    std::vector<Statistics> accounts; ///< of each photon: booked when it is splatted, so that a pass can be stopped
+    std::vector<Statistics> accounts; ///< of each photon; added up as it is splatted, since a pass may be stopped
 
     [[nodiscard]] bool has(std::uint64_t index) const { return index >= first && index - first < photons.size(); }
     [[nodiscard]] Photon take(std::uint64_t index, Statistics& account) const {
@@ -61,21 +63,21 @@ template <class S, class L, class Sequence, class E>
     announce(executor, Phase::trace);
     CoherentOrder order;
     const std::span<const PlacedPhoton> sorted = order.sort(light, sequence, pilot.first, count, executor);
-    for_each_index(executor, count, 512, [&](std::size_t place) {
-        const std::size_t i = sorted[place].number;
+    for_each_index(executor, count, 512, [&](std::size_t position) {
+        const std::size_t i = sorted[position].number;
         pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
     });
     return pilot;
 }
 
-/// What the pilot photons say of the footprints of the whole pass.
+/// Fits the footprints of the whole pass to the pilot.
 ///
-/// @tparam domains       what the lights may emit from
-/// @param largest_reach  of a footprint, world units: the map's diagonal
+/// @tparam domains       the kinds of domains that the lights may have
+/// @param largest_reach  of a footprint, world units: the receiver's diagonal
 template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class Policies, class E>
-[[nodiscard]] SecondOrderFootprints<V, domains> footprints_from(const Pilot<TracedPhoton<V, F, N>>& pilot,
-                                                                const PhotonPass& pass, const Policies& policies,
-                                                                double largest_reach, bool stratified, E& executor) {
+[[nodiscard]] SecondOrderFootprints<V, domains> fit_footprints(const Pilot<TracedPhoton<V, F, N>>& pilot,
+                                                               const PhotonPass& pass, const Policies& policies,
+                                                               double largest_reach, bool stratified, E& executor) {
     using Kernel = std::remove_cvref_t<decltype(policies.kernel)>;
     using Footprints = SecondOrderFootprints<V, domains>;
     const typename Footprints::Options options{.policy = policies.order,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Splatting to second order, within which bounds: the default policies.
+/// @file  The policies of second-order splatting, with their bounds, and the default preset.
 #pragma once
 
 #include "nephroid/splat/splat_policies.hpp"
@@ -13,51 +13,53 @@
 
 namespace nephroid {
 
-/// Bounds on the footprints that are chosen, in units of u0, the radius for which they cover the light's domain once.
+/// Bounds of the footprints that are chosen, in units of u0. With a radius of u0, all footprints together cover the
+/// light's domain once.
 struct SmoothingBounds {
-    double least = 5;           ///< s: smaller footprints show photons
-    double least_radius = 2;    ///< along any direction: a sequence is not stratified along thinner ones
-    double largest_radius = 32; ///< along any direction: larger ones cost more than they bring. For more than 80,000
-                                ///< photons it grows with their root: as large a part of the light's domain
-    double stretch = 8;         ///< longest to shortest radius
+    double least = 5;           ///< lower bound of s: smaller footprints show single photons
+    double least_radius = 2;    ///< in any direction: photons are not stratified across thinner footprints
+    double largest_radius = 32; ///< in any direction: larger footprints cost more than they gain. For more than 80,000
+                                ///< photons it grows with their square root, as a constant part of the light's domain
+    double stretch = 8;         ///< upper bound of the longest over the shortest radius
 };
 
-/// The bounds for so many photons. A bound that did not grow with them would leave noise of random photons that more
-/// of them do not mend.
+/// The bounds for a number of photons. If `largest_radius` did not grow, the noise of random photons would not fall
+/// any further with more of them.
 [[nodiscard]] inline SmoothingBounds bounds_for(SmoothingBounds bounds, double photons) {
     bounds.largest_radius *= std::sqrt((std::max)(1.0, photons / 80000));
     return bounds;
 }
 
-/// Photons are splatted where their bias cancels; without a smoothing given (`PhotonPass::smoothing`) each one's
-/// footprint is chosen from the photons around it. The default.
+/// Shifts photons so that their bias cancels. If no smoothing is given (`PhotonPass::smoothing`), it also chooses each
+/// photon's footprint from the photons around it. This is the default.
 struct SecondOrder {
     static constexpr bool uses_neighbours = true;
     SmoothingBounds bounds{};
     double largest_shift =
-        0.125; ///< of the longer of the footprint's new tangents, halved; longer ones are shortened, and
-               ///< counted. Of it, what follows from footprints that change is a quarter at most
-    std::uint64_t pilot = 1u << 16; ///< the field is made from the pass's first photons, this many at most, >= 1
-    bool domain_repeats = false; ///< the scene repeats over the light's patch (a tile of endless water, say), so that
-                                 ///< opposite borders of the patch are neighbours; of no effect on area lights
+        0.125; ///< over the longer half tangent of the new footprint; longer shifts are shortened and
+               ///< counted (`Statistics::bounded_shifts`). The part of the shift due to footprints
+               ///< that change is limited to a quarter of the footprint as well
+    std::uint64_t pilot = 1u << 16; ///< how many of the pass's first photons the footprints are chosen from, >= 1
+    bool domain_repeats = false; ///< whether the scene repeats over the light's patch (a tile of endless water, say),
+                                 ///< so that opposite borders of the patch are neighbours; has no effect on area lights
 };
 
-/// As SecondOrder, and photons around which the map bends are splatted in seven pieces: for sharp folds, and for scenes
-/// where rays cost far more than splats. Who does not use it pays nothing.
+/// As SecondOrder, but photons around which the map bends are splatted in seven pieces: for sharp folds, and for scenes
+/// in which rays cost far more than splats. Programs that do not use it do not compile it.
 struct CurvedFootprints : SecondOrder {
-    /// Photons whose footprint bends by less than this part of its minor radius (the norm of the second derivatives
-    /// along its semi-axes over that) stay one ellipse, >= 0
+    /// Footprints stay one ellipse if they bend by less than this part of their minor radius, >= 0. (The bend is the
+    /// norm of the second derivatives along the semi-axes.)
     double least_bend = 0.5;
 };
 
-/// What `caustics` does unless told otherwise: as `Published`, but to second order.
+/// The preset that `caustics` uses unless another is given: as `Published`, but to second order.
 using Default =
     SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, SecondOrder>;
 
 namespace detail {
-/// Complains of what cannot be; bounds may be infinite where there is to be none.
+/// Throws std::invalid_argument for options that make no sense. An upper bound may be infinite.
 ///
-/// @param caller  its name, for the message
+/// @param caller  name of the calling function, for the message
 inline void check(const SecondOrder& order, const char* caller) {
     const auto require = [caller](bool holds, const char* name, const std::string& value, const char* rule) {
         if (!holds)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Pictures from each quarter of the photons alone: what smoothings are compared by.
+/// @file  Pictures from each quarter of the photons, from which smoothings are compared.
 #pragma once
 
 #include "nephroid/smoothing/leaf_sample.hpp"
@@ -14,28 +14,29 @@
 
 namespace nephroid::detail {
 
-/// The picture at some of the vertices, from each quarter of the photons alone.
+/// For each quarter of the photons, the picture that it gives by itself at some of the vertices.
 using QuarterPictures = std::array<std::vector<double>, 4>;
 
-/// Makes such pictures.
+/// Splats the quarters with any smoothing.
 ///
-/// @tparam DepositOf  deposit_of(i) -> optional deposit of photon i, emitted with smoothing 1
+/// @tparam DepositOf  deposit_of(i) is the optional deposit of photon i, emitted with smoothing 1
 template <class V, class F, class R, class Policies, class DepositOf, class E>
 class QuarterSplatter {
 public:
-    /// @param like     tells map and response; is left as it is
-    /// @param count    photons there are
-    /// @param photons  of the pass, that the deposits' fluxes and tangents are those of
-    QuarterSplatter(const Sums<V, F, R>& like, const Policies& policies, std::size_t count, double photons,
+    /// @param sums     provides the receiver and the response; it is not changed
+    /// @param count    number of photons
+    /// @param photons  emitted by the whole pass: the deposits' fluxes and tangents are those of so many photons
+    QuarterSplatter(const Sums<V, F, R>& sums, const Policies& policies, std::size_t count, double photons,
                     const DepositOf& deposit_of, E& executor)
-        : sums_(like.map(), like.response()), splatter_(sums_, policies), sample_(like.map().tree(), vertices),
+        : sums_(sums.map(), sums.response()), splatter_(sums_, policies), sample_(sums.map().tree(), vertices),
           per_quarter_(count / 4), photons_per_deposit_(photons / double(count / 4 * 4)), deposit_of_(deposit_of),
           executor_(executor) {}
 
     QuarterSplatter(const QuarterSplatter&) = delete; // refers to its own sums
     QuarterSplatter& operator=(const QuarterSplatter&) = delete;
 
-    /// @param s  smoothing of the four quarters together: with footprints of this size each covers a quarter of s²
+    /// @param s  smoothing of the four quarters together; a single quarter then covers a quarter of s² times the
+    ///           domain
     [[nodiscard]] QuarterPictures operator()(double s) {
         const Rescaling rescaling{s * std::sqrt(photons_per_deposit_), 4 * photons_per_deposit_};
         QuarterPictures pictures;
@@ -63,7 +64,7 @@ private:
     Splatter<V, F, R, Policies> splatter_;
     LeafSample sample_;
     std::size_t per_quarter_;
-    double photons_per_deposit_; ///< of the pass, over those at hand
+    double photons_per_deposit_; ///< emitted by the whole pass, over the photons at hand
     const DepositOf& deposit_of_;
     E& executor_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Splatting to second order: the first photons of a pass say how large and where the splats of all are.
+/// @file  Splatting to second order: footprints and shifts of all photons are chosen from a pilot.
 #pragma once
 
 #include "nephroid/pass/traced_batch.hpp"
@@ -17,12 +17,12 @@
 
 namespace nephroid::detail {
 
-/// Whether footprints are to be placed and sized by neighbouring photons: they need differentials for it.
+/// Whether footprints are to be shifted and sized by neighbouring photons, which needs tangents.
 template <class Policies, class L>
 inline constexpr bool is_second_order = Light<L>&& decltype(Policies::order)::uses_neighbours&&
     std::same_as<decltype(Policies::shape), DifferentialFootprint>;
 
-/// Splats a photon where its neighbours say, in the footprint or the pieces that they say.
+/// Shifts a photon, gives it the footprint or the pieces chosen, and prepares its splats.
 template <class Footprints, class Photon, class Splatter>
 void prepare_shifted(const Footprints& footprints, Photon& photon, const Splatter& splatter,
                      typename Splatter::Chunk& chunk, Statistics& account) {
@@ -38,14 +38,14 @@ void prepare_shifted(const Footprints& footprints, Photon& photon, const Splatte
     }
 }
 
-/// For the photons that have no neighbours to choose their footprints by (Footprints::has_cells).
+/// The smoothing of photons without neighbours (Footprints::has_neighbours), by cross-validation.
 template <class Footprints, class V, class F, class R, class Policies, class Photon, class E>
-[[nodiscard]] double smoothing_without_cells(const Sums<V, F, R>& sums, const Policies& policies,
-                                             const Pilot<Photon>& pilot, const PhotonPass& pass, bool stratified,
-                                             E& executor) {
+[[nodiscard]] double smoothing_without_neighbours(const Sums<V, F, R>& sums, const Policies& policies,
+                                                  const Pilot<Photon>& pilot, const PhotonPass& pass, bool stratified,
+                                                  E& executor) {
     const auto deposit_of = [&pilot](std::size_t i) {
         const Photon& photon = pilot.photons[i];
-        return Footprints::has_cells(photon.sample) ? std::nullopt : photon.deposit;
+        return Footprints::has_neighbours(photon.sample) ? std::nullopt : photon.deposit;
     };
     return cross_validated(sums, policies, pilot.photons.size(), double(pass.emitted_in_all()), stratified, deposit_of,
                            executor);
@@ -55,12 +55,12 @@ template <class S, class L, class V, class F, class R, class Policies, class Seq
 Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
                                  const Policies& policies, const Sequence& sequence, E& executor) {
     const auto pilot = trace_pilot(scene, light, pass, policies.order, sequence, executor);
-    auto footprints = footprints_from<emission_domains<L>>(pilot, pass, policies, double(sums.map().diagonal()),
-                                                           Sequence::stratified, executor);
+    auto footprints = fit_footprints<emission_domains<L>>(pilot, pass, policies, double(sums.map().diagonal()),
+                                                          Sequence::stratified, executor);
     if constexpr (emission_domains<L>.others)
         if (!pass.smoothing)
-            footprints.smooth_others(smoothing_without_cells<decltype(footprints)>(sums, policies, pilot, pass,
-                                                                                   Sequence::stratified, executor));
+            footprints.set_smoothing_without_neighbours(smoothing_without_neighbours<decltype(footprints)>(
+                sums, policies, pilot, pass, Sequence::stratified, executor));
     Splatter splatter(sums, policies);
     TracedBatch<traced_photon_t<L>> batch;
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {

@@ -14,13 +14,13 @@ using namespace nephroid;
 using namespace nephroid::detail;
 using tests::area_samples;
 
-TEST_CASE("area cells: each photon is in the cell that its sample says") {
+TEST_CASE("area cells: each photon is in the cell of its sample") {
     const auto all = area_samples<RandomSequence>(3000);
     const AreaCells cells(all, {3, 1, 4, 5});
     REQUIRE(cells.size() == 60);
     std::vector<int> met(all.size());
     for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-        CHECK(cells.cell_at(cells.place_of(cell)) == cell);
+        CHECK(cells.cell_at(cells.coordinates_of(cell)) == cell);
         for (const std::uint32_t i : cells.photons(cell)) {
             ++met[i];
             CHECK(cells.cell_of(all[i]) == cell);
@@ -34,24 +34,24 @@ TEST_CASE("area cells: each photon is in the cell that its sample says") {
 }
 
 // 16 photons in each of 4096 cells.
-TEST_CASE("area cells: numbers that matter more are split finer") {
+TEST_CASE("area cells: axes with more change get more cells") {
     const auto counts = [](AreaSample need) { return AreaCells::counts_for(65536, need); };
-    CHECK(counts({1, 1, 1, 1}) == AreaCells::Place{8, 8, 8, 8});
-    CHECK(counts({1, 1, 4, 4}) == AreaCells::Place{4, 4, 16, 16});
-    CHECK(counts({0, 0, 5, 5}) == AreaCells::Place{1, 1, 64, 64});
-    CHECK(counts({0, 0, 4, 1}) == AreaCells::Place{1, 1, 128, 32});
-    CHECK(counts({0, 3, 0, 0}) == AreaCells::Place{1, 4096, 1, 1});
-    CHECK(counts({2, 2e9, 2e9, 2}) == AreaCells::Place{1, 64, 64, 1});
+    CHECK(counts({1, 1, 1, 1}) == AreaCells::CellCoordinates{8, 8, 8, 8});
+    CHECK(counts({1, 1, 4, 4}) == AreaCells::CellCoordinates{4, 4, 16, 16});
+    CHECK(counts({0, 0, 5, 5}) == AreaCells::CellCoordinates{1, 1, 64, 64});
+    CHECK(counts({0, 0, 4, 1}) == AreaCells::CellCoordinates{1, 1, 128, 32});
+    CHECK(counts({0, 3, 0, 0}) == AreaCells::CellCoordinates{1, 4096, 1, 1});
+    CHECK(counts({2, 2e9, 2e9, 2}) == AreaCells::CellCoordinates{1, 64, 64, 1});
     // What says nothing.
-    CHECK(counts({0, 0, 0, 0}) == AreaCells::Place{8, 8, 8, 8});
+    CHECK(counts({0, 0, 0, 0}) == AreaCells::CellCoordinates{8, 8, 8, 8});
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    CHECK(counts({infinity, 1, 1, 1}) == AreaCells::Place{8, 8, 8, 8});
-    CHECK(AreaCells::counts_for(0, {1, 1, 1, 1}) == AreaCells::Place{1, 1, 1, 1});
+    CHECK(counts({infinity, 1, 1, 1}) == AreaCells::CellCoordinates{8, 8, 8, 8});
+    CHECK(AreaCells::counts_for(0, {1, 1, 1, 1}) == AreaCells::CellCoordinates{1, 1, 1, 1});
 }
 
 // Multilinear weights make a linear function of the middles' places, and its slopes, wherever they do not end at a
 // border.
-TEST_CASE("area cells: nodes interpolate what is linear") {
+TEST_CASE("area cells: nodes interpolate linear functions exactly") {
     const AreaCells cells({}, {4, 1, 5, 2});
     const AreaSample slope{2, 0, -3, 0.5};
     const auto value = [&](const AreaSample& at) { return 1 + slope[0] * at[0] + slope[2] * at[2] + slope[3] * at[3]; };
@@ -60,7 +60,7 @@ TEST_CASE("area cells: nodes interpolate what is linear") {
         AreaSample slopes{};
         const AreaSample inside{0.125 + 0.75 * at[0], at[1], 0.1 + 0.8 * at[2], 0.25 + 0.5 * at[3]};
         cells.for_each_node(inside, [&](std::size_t cell, double weight, const AreaSample& by) {
-            const auto place = cells.place_of(cell);
+            const auto place = cells.coordinates_of(cell);
             AreaSample middle;
             for (std::size_t axis = 0; axis < 4; ++axis)
                 middle[axis] = (double(place[axis]) + 0.5) / double(cells.counts()[axis]);
@@ -83,7 +83,7 @@ TEST_CASE("area cells: nodes interpolate what is linear") {
     }
 }
 
-TEST_CASE("area cells: around a cell are those that touch it and what is beyond the domain") {
+TEST_CASE("area cells: the cells around a cell are those that touch it") {
     const AreaCells cells({}, {3, 1, 4, 5});
     std::size_t inside = 0, beyond = 0;
     cells.for_each_around(cells.cell_at({1, 0, 0, 2}), [&](const std::array<int, 4>& step, std::size_t other) {
@@ -92,8 +92,8 @@ TEST_CASE("area cells: around a cell are those that touch it and what is beyond 
             return;
         }
         ++inside;
-        CHECK(cells.place_of(other) ==
-              AreaCells::Place{std::size_t(1 + step[0]), 0, std::size_t(step[2]), std::size_t(2 + step[3])});
+        CHECK(cells.coordinates_of(other) ==
+              AreaCells::CellCoordinates{std::size_t(1 + step[0]), 0, std::size_t(step[2]), std::size_t(2 + step[3])});
     });
     CHECK(inside == 3 * 1 * 2 * 3);
     CHECK(inside + beyond == 81);

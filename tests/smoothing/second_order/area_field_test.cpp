@@ -123,7 +123,7 @@ TEST_CASE("area field: the bias falls with the fourth power of the smoothing and
 
 // Second derivatives are constant, so that fits have nothing to err about but rounding, whatever cells they are made
 // in.
-TEST_CASE("area field: second derivatives along the tangents are those of the map") {
+TEST_CASE("area field: the second derivatives along the tangents are those of the map") {
     for (const double turn : {0.0, 0.7}) {
         const AreaLamp lamp{.width = 1, .unit = 0.01, .turn = turn};
         auto photons = lamp.photons(quadratic, 3000);
@@ -153,7 +153,7 @@ TEST_CASE("area field: second derivatives along the tangents are those of the ma
 }
 
 // Tangents that are turned about their rays from photon to photon are the same footprints.
-TEST_CASE("area field: how a photon's tangents are turned makes no difference") {
+TEST_CASE("area field: rotating a photon's tangents makes no difference") {
     const AreaLamp straight{.turn = 0};
     std::vector<AreaPhoton> plain, turned;
     const HaltonSequence sequence(1);
@@ -186,7 +186,7 @@ TEST_CASE("area field: how a photon's tangents are turned makes no difference") 
 }
 
 // A map whose slopes change by e^4 over the directions and not over the places deserves cells along the former alone.
-TEST_CASE("area field: a small light is split along its directions") {
+TEST_CASE("area field: a small light gets its cells along the directions") {
     const auto map = [](const AreaSample& u) {
         const double x = std::exp(2 * u[2]), y = std::exp(2 * u[3]);
         return AreaLanding{{0.1 * u[0] + x, 0.1 * u[1] + y, 0},
@@ -205,7 +205,7 @@ TEST_CASE("area field: a small light is split along its directions") {
 
 // Photons beyond d_x = 0 are lost. The map bends along the directions, so that the cells lie along these, 6 steps of u0
 // = 0.01 wide: as finely the border is known.
-TEST_CASE("area field: footprints shrink towards the end of a sheet and only across it") {
+TEST_CASE("area field: footprints shrink towards a border and only across it") {
     const auto map = [](const AreaSample& u) {
         return AreaLanding{{u[2] + 0.01 * u[2] * u[2] + 0.1 * u[0], u[3] + 0.01 * u[3] * u[3] + 0.1 * u[1], 0},
                            {{{0.1, 0, 0}, {0, 0.1, 0}, {1 + 0.02 * u[2], 0, 0}, {0, 1 + 0.02 * u[3], 0}}},
@@ -232,7 +232,7 @@ TEST_CASE("area field: footprints shrink towards the end of a sheet and only acr
           doctest::Approx(largest2).epsilon(1e-3)); // the border's direction is known to a hundredth
 }
 
-TEST_CASE("area field: photons that it knows nothing of get the default smoothing") {
+TEST_CASE("area field: photons outside the field get the default smoothing") {
     const AreaLamp lamp;
     const auto photons = lamp.photons(quadratic, 1000);
     const auto footprints = footprints_of(photons, {.stratified = true, .photons = 1000});
@@ -249,7 +249,7 @@ TEST_CASE("area field: photons that it knows nothing of get the default smoothin
     }
 }
 
-TEST_CASE("area field: lights of all sorts of photons are taken") {
+TEST_CASE("area field: photons at one place make no field and invalid ones are skipped") {
     SerialExecutor executor;
     const AreaLamp lamp;
     const auto at = [&](const std::vector<AreaPhoton>& photons) {

@@ -40,11 +40,11 @@ TEST_CASE("area photons: the commonest path is that of most photons") {
     CHECK(all.commonest_path(std::vector<std::uint32_t>{0, 1, 3}).value() == 3);
     CHECK(all.commonest_path(std::vector<std::uint32_t>{0, 1}).value() == 3); // the lower of two that are as common
     CHECK(!all.commonest_path({}));
-    CHECK(all.tells_of(1, 5));
-    CHECK(!all.tells_of(1, 3));
+    CHECK(all.is_usable_on(1, 5));
+    CHECK(!all.is_usable_on(1, 3));
 }
 
-TEST_CASE("area photons: those that are lost or whose tangents are endless tell nothing") {
+TEST_CASE("area photons: lost photons and those with infinite tangents are not usable") {
     auto photons = photons_of_two_paths();
     for (auto& photon : photons)
         if (photon.signature == 5)
@@ -53,13 +53,13 @@ TEST_CASE("area photons: those that are lost or whose tangents are endless tell 
     const AreaPhotons all{PathSamples(photons)};
     CHECK(all.commonest_path(first(9)).value() == 3);
     CHECK(all.is_on(0, 3)); // it landed there nevertheless: no border is beside it
-    CHECK(!all.tells_of(0, 3));
+    CHECK(!all.is_usable_on(0, 3));
     CHECK(!all.is_on(1, 5));
     CHECK(!all.commonest_path(std::vector<std::uint32_t>{0, 1}));
 }
 
 // F = (p_x + d_x + 10 d_x², p_y + d_y): of all four numbers d_x alone changes the tangents.
-TEST_CASE("area photons: there are more cells along the numbers that change the tangents") {
+TEST_CASE("area photons: axes along which the tangents change get more cells") {
     const auto bent = [](const AreaSample& u) {
         return AreaLanding{{u[0] + u[2] + 10 * u[2] * u[2], u[1] + u[3], 0},
                            {{{1, 0, 0}, {0, 1, 0}, {1 + 20 * u[2], 0, 0}, {0, 1, 0}}}};
@@ -71,7 +71,7 @@ TEST_CASE("area photons: there are more cells along the numbers that change the 
         CHECK(counts[axis] <= 4);
 }
 
-TEST_CASE("area photons: where all numbers change the tangents alike the cells are cubes") {
+TEST_CASE("area photons: the cells are cubes if the tangents change equally along all axes") {
     const auto bent = [](const AreaSample& u) {
         const double sum = u[0] + u[1] + u[2] + u[3], slope = 1 + 2 * sum;
         return AreaLanding{{sum + sum * sum, u[1] - u[3], 0},

@@ -43,7 +43,7 @@ constexpr std::array<Space3, 2> slanted{{{2, 0.5, 1}, {-0.3, 1, 0.2}}};
 }
 
 /// B of a footprint L, from all entries of h and t by their definition.
-[[nodiscard]] double size_by_definition(const PathDerivatives& map, const PlaneMatrix& l, double ground) {
+[[nodiscard]] double size_by_definition(const PathDerivatives& map, const PlaneMatrix& l, double isotropic) {
     const detail::EmissionPullback pull_back(map.first);
     const PlaneMatrix back = l.inverse();
     const std::array<Plane2, 2> axes{l.first, l.second};
@@ -67,12 +67,12 @@ constexpr std::array<Space3, 2> slanted{{{2, 0.5, 1}, {-0.3, 1, 0.2}}};
                 third2 += inner(w, w);
             }
         }
-    return second2 + 0.3 * std::sqrt(third2) + ground * (inner(l.first, l.first) + inner(l.second, l.second));
+    return second2 + 0.3 * std::sqrt(third2) + isotropic * (inner(l.first, l.first) + inner(l.second, l.second));
 }
 
 /// A shape of area 1, stretched by up to e² either way.
 [[nodiscard]] PlaneMatrix any_shape(Draws& draw, double size) {
-    return detail::stretching(any_vector(draw, size)) * detail::stretching(any_vector(draw, size));
+    return detail::stretching_matrix(any_vector(draw, size)) * detail::stretching_matrix(any_vector(draw, size));
 }
 
 [[nodiscard]] double traced(const Symmetric2& s, const Symmetric2& q) {
@@ -81,24 +81,24 @@ constexpr std::array<Space3, 2> slanted{{{2, 0.5, 1}, {-0.3, 1, 0.2}}};
 
 } // namespace
 
-TEST_CASE("bending: a footprint bends by what the derivatives are in its own coordinates") {
+TEST_CASE("bending: B is that of the derivatives in the footprint's own coordinates") {
     Draws draw(1);
     for (int i = 0; i < 100; ++i) {
         const PathDerivatives map = any_map(draw);
         const PlaneMatrix l = any_shape(draw, 0.5);
-        const detail::Bend bend(map, 1, 1e-4);
-        CHECK(bend.turned(l).size() == doctest::Approx(size_by_definition(map, l, 1e-4)).epsilon(1e-9));
+        const detail::BendingTerms bend(map, 1, 1e-4);
+        CHECK(bend.turned(l).total() == doctest::Approx(size_by_definition(map, l, 1e-4)).epsilon(1e-9));
     }
 }
 
 // Central differences: h² times a third derivative of some 27, and rounding over h.
-TEST_CASE("bending: the slope is that of log B") {
+TEST_CASE("bending: the slope is the gradient of log B") {
     Draws draw(2);
     constexpr double h = 1e-4;
     for (int i = 0; i < 100; ++i) {
-        const detail::Bend bend = detail::Bend(any_map(draw), 1, 1e-4).turned(any_shape(draw, 0.5));
+        const detail::BendingTerms bend = detail::BendingTerms(any_map(draw), 1, 1e-4).turned(any_shape(draw, 0.5));
         const auto log_size = [&](double p, double q) {
-            return std::log(bend.turned(detail::stretching({p, q})).size());
+            return std::log(bend.turned(detail::stretching_matrix({p, q})).total());
         };
         const Plane2 slope = bend.slope();
         CHECK(std::abs(slope.x - (log_size(h, 0) - log_size(-h, 0)) / (2 * h)) < 1e-6);
@@ -159,16 +159,18 @@ TEST_CASE("bending: a map that only widens lets footprints be long across") {
     CHECK(q.xx == doctest::Approx(64 * q.yy).epsilon(1e-6));
 }
 
-TEST_CASE("bending: nothing bends by more than a photon's share") {
+TEST_CASE("bending: B is limited to a photon's share") {
     const Second strong{{{20, -10}, {30, 15}, {-25, 5}}};
     const Third strongest{{{20, 0}, {0, 10}, {10, 10}, {0, 30}}};
-    const auto size = [](const PathDerivatives& map, double share) { return detail::Bend(map, share, 0).size(); };
+    const auto size = [](const PathDerivatives& map, double share) {
+        return detail::BendingTerms(map, share, 0).total();
+    };
     CHECK(size(map_of(slanted, strong), 1) == doctest::Approx(1).epsilon(1e-9));
     CHECK(size(map_of(slanted, {}, strongest), 1) == doctest::Approx(0.3).epsilon(1e-9));
     CHECK(size(map_of(slanted, strong, strongest), 0.5) == doctest::Approx(0.65).epsilon(1e-9));
 }
 
-TEST_CASE("bending: without any bend the domain's own size and the roughness are what counts") {
+TEST_CASE("bending: on a straight map only the domain's size and the roughness count") {
     const Symmetric2 q = bending(map_of(slanted, {}), 1000, 1, 0.02);
     CHECK(q.xx == doctest::Approx(5 / (1000 * pi<double>)+0.01));
     CHECK(q.yy == doctest::Approx(q.xx));

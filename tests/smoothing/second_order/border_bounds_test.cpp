@@ -3,7 +3,7 @@
 
 #include "nephroid/emission/warp.hpp"
 
-#include "smoothing/second_order/sheets.hpp"
+#include "smoothing/second_order/fields.hpp"
 
 #include <doctest/doctest.h>
 
@@ -14,7 +14,7 @@ using namespace nephroid;
 using namespace nephroid::detail;
 using namespace nephroid::tests;
 
-TEST_CASE("border bounds: footprints reach as far as the domain's border and no further") {
+TEST_CASE("border bounds: footprints reach to the border of the domain and no further") {
     const Field field = field_of(affine);
     const double s2 = straight_radius2(), width = side * step;
     for (const double u : {0.001, 0.02, 0.1, 0.32, 0.5, 0.9, 0.999})
@@ -31,7 +31,7 @@ TEST_CASE("border bounds: footprints reach as far as the domain's border and no 
 
 // Within a cell, a 21st of the square's side, the map onto the disk turns by (π/4) (2/21) = 0.075 at most, and so may
 // the distance to the rim be off by that share: 0.15 of its square. Along the diagonals the map has kinks.
-TEST_CASE("border bounds: a disk's rim is as far as it is all around, the corners of the samples among it") {
+TEST_CASE("border bounds: a disk bounds footprints by the distance to its rim, at the corners of the square too") {
     const auto on_disk = [](const std::array<double, 2>& sample) {
         const DiskPoint<double> at = concentric_disk(sample[0], sample[1]);
         const double tangent = 2 * unit_of(all, pi<double>);
@@ -66,7 +66,7 @@ TEST_CASE("border bounds: a disk's rim is as far as it is all around, the corner
 }
 
 // A kernel with twice the second moment reaches as far with half of S, up to borders too.
-TEST_CASE("border bounds: borders count for a kernel by its own width") {
+TEST_CASE("border bounds: a wider kernel gets smaller footprints at a border") {
     FieldOptions wide = stratified();
     wide.scale = 0.5;
     const Field biweight = field_of(affine), other = field_of(affine, wide);
@@ -77,7 +77,7 @@ TEST_CASE("border bounds: borders count for a kernel by its own width") {
     }
 }
 
-TEST_CASE("border bounds: a domain that repeats has no borders") {
+TEST_CASE("border bounds: a repeating domain has no borders") {
     FieldOptions options = stratified();
     options.repeats = true;
     const Field field = field_of(affine, options);
@@ -92,7 +92,7 @@ TEST_CASE("border bounds: a domain that repeats has no borders") {
 }
 
 // 240 × 30 photons over 8 × 1, 53 units from side to side.
-TEST_CASE("border bounds: a long domain has borders as far away as any") {
+TEST_CASE("border bounds: a long domain bounds footprints by the distance to its borders") {
     constexpr double extent = 8, photons = 240 * 30;
     const Field field =
         field_of(photons_of(affine, lattice(240, 30), 0, extent), {.stratified = true, .photons = photons});

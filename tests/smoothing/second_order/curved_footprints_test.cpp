@@ -84,11 +84,11 @@ TEST_CASE("curved footprints: pieces of the disk have the weight and the moments
     double weight = 0, second = 0, fourth = 0, mixed = 0;
     D mean(0);
     for (const auto& piece : detail::disk_pieces) {
-        const double q2 = inner(piece.place, piece.place);
+        const double q2 = inner(piece.centre, piece.centre);
         weight += piece.weight;
-        mean += piece.weight * D(piece.place.x, piece.place.y, 0);
-        second += piece.weight * (square(piece.place.x) + 0.25 / 8);
-        mixed += piece.weight * piece.place.x * piece.place.y;
+        mean += piece.weight * D(piece.centre.x, piece.centre.y, 0);
+        second += piece.weight * (square(piece.centre.x) + 0.25 / 8);
+        mixed += piece.weight * piece.centre.x * piece.centre.y;
         fourth += piece.weight * (q2 * q2 + q2 / 4 + 0.1 / 16);
         CHECK(std::sqrt(q2) + 0.5 <= 1 + 1e-15); // nothing reaches beyond the disk
     }
@@ -124,14 +124,14 @@ TEST_CASE("curved footprints: the pieces keep the flux and the mean of the one s
 
 // Along a fold F = (u, u²/2 + …) the exact image of a disk bends; the pieces lie on it, moved by the mean of what
 // they bend.
-TEST_CASE("curved footprints: pieces lie where the map takes them with its tangents there") {
+TEST_CASE("curved footprints: pieces lie where the map takes them and have its tangents there") {
     const D a(0.4, 0, 0), b(0, 0.05, 0);
     const SecondDerivatives second{Space3{0, 0.3, 0}, Space3{0.02, 0, 0}, Space3{0, 0, 0}};
     const auto result = curved(deposit_of(a, b), second, {}, 0.125);
     REQUIRE(result.count == 7);
     const D mean(0, 0.5 * 3.0 / 32 * 0.3, 0);
     for (std::size_t i = 0; i < 7; ++i) {
-        const Plane2 q = detail::disk_pieces[i].place;
+        const Plane2 q = detail::disk_pieces[i].centre;
         const D at = q.x * a + q.y * b + D(q.x * q.y * 0.02, 0.5 * q.x * q.x * 0.3, 0);
         CHECK(length(result.all[i].position - (D(0.3, -0.2, 0) + at - mean)) < 1e-15);
         CHECK(length(result.all[i].d_position[0] - (a + D(q.y * 0.02, q.x * 0.3, 0))) < 1e-15); // 2 · 1/2 of a half
@@ -139,7 +139,7 @@ TEST_CASE("curved footprints: pieces lie where the map takes them with its tange
     }
 }
 
-TEST_CASE("curved footprints: those that hardly bend stay whole") {
+TEST_CASE("curved footprints: footprints that hardly bend stay whole") {
     const Whole flat = deposit_of({0.4, 0, 0}, {0, 0.05, 0});
     const auto pieces_for = [&](double bend, double least) {
         return curved(flat, SecondDerivatives{Space3{0, bend, 0}, {}, {}}, {{}, least}, 0.125).count;
@@ -173,7 +173,7 @@ TEST_CASE("curved footprints: a pass loses no flux and counts each photon once")
     CHECK(light == doctest::Approx(light_flat).epsilon(0.02)); // moved, but for what crosses the film's border
 }
 
-TEST_CASE("curved footprints: with no bend to bend for the bits are those of plain second order") {
+TEST_CASE("curved footprints: on a straight map the picture is that of plain second order bit for bit") {
     const auto flat = picture_of(SecondOrder{}, 3000),
                whole = picture_of(CurvedFootprints{{}, std::numeric_limits<double>::infinity()}, 3000);
     CHECK(whole.irradiance == flat.irradiance);
@@ -187,7 +187,7 @@ TEST_CASE("curved footprints: any number of threads renders the same picture bit
 }
 
 // A photon whose one piece lies off the map: what is seen and what is not add up to it.
-TEST_CASE("curved footprints: pieces that nobody sees are booked as unseen") {
+TEST_CASE("curved footprints: pieces out of view are booked as unseen") {
     std::vector<tests::Vertex<D>> vertices;
     for (int i = 0; i < 100; ++i)
         vertices.push_back({D(0.1 * (i % 10), 0.1 * (i / 10), 0)});
@@ -209,7 +209,7 @@ TEST_CASE("curved footprints: pieces that nobody sees are booked as unseen") {
     CHECK(account[Fate::unseen].flux == 6);
 }
 
-TEST_CASE("curved footprints: bounds that cannot be are named") {
+TEST_CASE("curved footprints: the message names the option that makes no sense") {
     const auto message = [](const CurvedFootprints& order) {
         try {
             (void)picture_of(order, 100);

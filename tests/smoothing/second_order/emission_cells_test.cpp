@@ -22,7 +22,7 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 } // namespace
 
-TEST_CASE("emission cells: each photon is in the one cell that its sample is in") {
+TEST_CASE("emission cells: each photon is in the cell of its sample and in no other") {
     const auto samples = halton(1000);
     for (const double aspect : {0.01, 0.3, 1.0, 4.0, 1000.0}) {
         const EmissionCells cells(samples, aspect, false);
@@ -44,7 +44,7 @@ TEST_CASE("emission cells: each photon is in the one cell that its sample is in"
     }
 }
 
-TEST_CASE("emission cells: as many columns to rows as the domain is long") {
+TEST_CASE("emission cells: columns are to rows as the domain's length is to its width") {
     const auto samples = halton(16 * 400);
     const EmissionCells square_domain(samples, 1, false), wide(samples, 4, false), high(samples, 0.25, false);
     CHECK(square_domain.columns() == 20);
@@ -56,7 +56,7 @@ TEST_CASE("emission cells: as many columns to rows as the domain is long") {
     CHECK(EmissionCells(samples, 1e9, false).rows() == 1);
 }
 
-TEST_CASE("emission cells: of no photons or few there is one cell") {
+TEST_CASE("emission cells: few photons or none make one cell") {
     for (const std::size_t count : {0u, 1u, 16u, 23u}) {
         const auto samples = halton(count);
         const EmissionCells cells(samples, 1, false);
@@ -65,7 +65,7 @@ TEST_CASE("emission cells: of no photons or few there is one cell") {
     }
 }
 
-TEST_CASE("emission cells: a sample at the domain's very end is in the last cell") {
+TEST_CASE("emission cells: a sample at the domain's end is in the last cell") {
     const auto samples = halton(16 * 400);
     const EmissionCells cells(samples, 1, false);
     const double last = std::nextafter(1.0, 0.0);
@@ -74,7 +74,7 @@ TEST_CASE("emission cells: a sample at the domain's very end is in the last cell
     CHECK(cells.cell_of({1, 1}) == cells.size() - 1); // what a float may round to
 }
 
-TEST_CASE("emission cells: neighbours end at the border unless the domain repeats") {
+TEST_CASE("emission cells: cells at the border have no neighbours beyond it unless the domain repeats") {
     const auto samples = halton(16 * 12);
     const EmissionCells open(samples, 4.0 / 3, false), repeats(samples, 4.0 / 3, true);
     REQUIRE(open.columns() == 4);
@@ -101,16 +101,16 @@ TEST_CASE("emission cells: neighbours end at the border unless the domain repeat
     CHECK(along.y == doctest::Approx(0.7));
 }
 
-TEST_CASE("sample metric: finds the matrix that made the displacements") {
+TEST_CASE("step fit: finds the matrix that the displacements were made with") {
     Draws draw(2);
     for (int round = 0; round < 50; ++round) {
         const PlaneMatrix m{{draw.in(0.5, 2), draw.in(-0.4, 0.4)}, {draw.in(-0.4, 0.4), draw.in(0.5, 2)}};
-        SampleMetric metric;
+        StepFit fit;
         for (int i = 0; i < 5; ++i) {
             const Plane2 step{draw.in(-0.1, 0.1), draw.in(-0.1, 0.1)};
-            metric.add(step, m(step));
+            fit.add(step, m(step));
         }
-        const auto found = metric.solve();
+        const auto found = fit.solve();
         REQUIRE(found);
         // Among steps of a condition of 1e3 at most, squared by the normal equations.
         CHECK(std::abs(found->first.x - m.first.x) <= 1e7 * epsilon);
@@ -120,8 +120,8 @@ TEST_CASE("sample metric: finds the matrix that made the displacements") {
     }
 }
 
-TEST_CASE("sample metric: refuses steps on a line and displacements that are none") {
-    SampleMetric nothing, line, still, odd;
+TEST_CASE("step fit: refuses steps on a line and displacements of zero") {
+    StepFit nothing, line, still, odd;
     CHECK(!nothing.solve());
     for (const double t : {-1.0, 0.5, 1.0, 2.0}) {
         line.add({t, 2 * t}, {t, t});
@@ -133,9 +133,9 @@ TEST_CASE("sample metric: refuses steps on a line and displacements that are non
     CHECK(!odd.solve());
 }
 
-TEST_CASE("emission cells: unit tangents are half of a deposit's tangents") {
+TEST_CASE("path sample: its tangents are half of the deposit's") {
     const auto photon = tests::photon_at(tests::affine, {0.5, 0.5}, 100);
-    const auto tangents = unit_tangents(*photon.deposit);
+    const auto tangents = half_tangents(*photon.deposit);
     const double u0 = tests::unit_of(100);
     CHECK(tangents[0].x == doctest::Approx(2 * u0).epsilon(4 * epsilon));
     CHECK(tangents[0].y == doctest::Approx(0.25 * u0).epsilon(4 * epsilon));

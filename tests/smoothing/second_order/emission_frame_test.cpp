@@ -48,8 +48,8 @@ TEST_CASE("emission frame: coordinates are places in units of u0 for a light wit
     REQUIRE(frame.is_regular());
     const D e = here.differential[0].d_position / length(here.differential[0].d_position),
             f = here.differential[1].d_position / length(here.differential[1].d_position), step(0.2, -0.6, 0);
-    check_close(frame.to(other), {dot(step, e) / u0, dot(step, f) / u0}, 1e4 * epsilon);
-    check_close(frame.to(frame), {0, 0}, 0);
+    check_close(frame.displacement_to(other), {dot(step, e) / u0, dot(step, f) / u0}, 1e4 * epsilon);
+    check_close(frame.displacement_to(frame), {0, 0}, 0);
     const PlaneMatrix axes = frame.axes_of(other);
     check_close(axes.first, {1, 0}, 16 * epsilon);
     check_close(axes.second, {0, 1}, 16 * epsilon);
@@ -66,10 +66,10 @@ TEST_CASE("emission frame: coordinates are directions in units of u0 for a point
         const EmissionFrame frame(here), other(there);
         REQUIRE(frame.is_regular());
         const double sine = length(cross(here.direction, there.direction));
-        const Plane2 to = frame.to(other);
+        const Plane2 to = frame.displacement_to(other);
         CHECK(std::sqrt(inner(to, to)) == doctest::Approx(sine / u0).epsilon(1e-9));
         // The same displacement seen from the other end, in its axes, but for the cosine between the directions.
-        const Plane2 back = other.to(frame), turned = frame.axes_of(other)(back);
+        const Plane2 back = other.displacement_to(frame), turned = frame.axes_of(other)(back);
         CHECK(std::sqrt(inner(back, back)) == doctest::Approx(sine / u0).epsilon(1e-9));
         check_close(turned, -1.0 * to, 2 * (sine * sine) * sine / u0);
         // Its axes are turned, and foreshortened by that cosine in one direction.
@@ -78,7 +78,7 @@ TEST_CASE("emission frame: coordinates are directions in units of u0 for a point
     }
 }
 
-TEST_CASE("emission frame: axes of axes are those of both steps") {
+TEST_CASE("emission frame: changes of axes compose") {
     Draws draw(5);
     const auto any = [&] {
         const D zero(0);
@@ -97,12 +97,12 @@ TEST_CASE("emission frame: axes of axes are those of both steps") {
         check_close(one.first, {1, 0}, 256 * epsilon);
         check_close(one.second, {0, 1}, 256 * epsilon);
         // A place is the same place by way of another one.
-        check_close(a.to(b) + a.axes_of(b)(b.to(c)), a.to(c), 1024 * epsilon);
+        check_close(a.displacement_to(b) + a.axes_of(b)(b.displacement_to(c)), a.displacement_to(c), 1024 * epsilon);
     }
 }
 
 // u0 of places is sqrt(area / (π N)) = radius / sqrt(N), of directions as many units as make N of them π.
-TEST_CASE("emission frame: an area light's photons differ in place and in direction") {
+TEST_CASE("emission frame: an area light's photons differ in position and in direction") {
     const double photons = 400, radius = 3;
     const DiskLight<D, double> disk({.center = {1, 2, 3}, .normal = {0, 0, -1}, .radius = radius, .radiance = 1});
     const auto photon = [&](std::vector<double> samples) {
@@ -118,10 +118,10 @@ TEST_CASE("emission frame: an area light's photons differ in place and in direct
     // The directions are as apart as there is density of them, 1/π of the cosine.
     const double unit_of_place = radius / std::sqrt(photons),
                  unit_of_direction = std::sqrt(1 / (photons * std::abs(from.direction.z)));
-    CHECK(std::hypot(to_there.place.x, to_there.place.y) ==
+    CHECK(std::hypot(to_there.position.x, to_there.position.y) ==
           doctest::Approx(length(there.position - from.position) / unit_of_place).epsilon(1e-9));
     CHECK(std::hypot(to_there.direction.x, to_there.direction.y) < 1e-9);
-    CHECK(std::hypot(to_turned.place.x, to_turned.place.y) < 1e-9);
+    CHECK(std::hypot(to_turned.position.x, to_turned.position.y) < 1e-9);
     const D change = turned.direction - from.direction, across = change - dot(change, from.direction) * from.direction;
     CHECK(std::hypot(to_turned.direction.x, to_turned.direction.y) ==
           doctest::Approx(length(across) / unit_of_direction).epsilon(1e-9));
@@ -132,20 +132,20 @@ TEST_CASE("emission frame: an area light's photons differ in place and in direct
     CHECK(!EmissionFrame().is_of_area());
 }
 
-TEST_CASE("emission frame: how tangents are turned about the ray is told") {
+TEST_CASE("emission frame: finds the rotation of tangents about the ray") {
     const auto with = [](double angle, double scale) {
         const double c = scale * std::cos(angle), s = scale * std::sin(angle);
         return EmissionFrame(Photon<D, double>{
             {0, 0, 0}, {0, 0, -1}, 1, {Tangent<D>{{c, s, 0}, {c, s, 0}}, Tangent<D>{{-s, c, 0}, {-s, c, 0}}}});
     };
     for (const double angle : {0.0, 0.3, 2.0, -3.0}) {
-        const PlaneMatrix turn = with(0.5, 1).turn_of(with(0.5 + angle, 1.7)); // whatever their lengths
+        const PlaneMatrix turn = with(0.5, 1).rotation_of(with(0.5 + angle, 1.7)); // whatever their lengths
         check_close(turn.first, {std::cos(angle), std::sin(angle)}, 64 * epsilon);
         check_close(turn.second, {-std::sin(angle), std::cos(angle)}, 64 * epsilon);
     }
 }
 
-TEST_CASE("emission frame: tangents that span nothing are not regular") {
+TEST_CASE("emission frame: tangents on a line are not regular") {
     const auto with = [](const D& du, const D& dv) {
         const D zero(0);
         return EmissionFrame(Photon<D, double>{{1, 2, 3}, {0, 0, -1}, 1, {Tangent<D>{du, zero}, {dv, zero}}});

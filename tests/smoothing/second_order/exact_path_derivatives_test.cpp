@@ -72,7 +72,7 @@ template <class T, class P, class S>
 #if defined(__SIZEOF_FLOAT128__) // else the differences have no digits left
 // Differences of step 1e-5 of the ball's own scale, in units: wrong by 1e-10 of the next derivatives but one, each of
 // which is the unit, 0.05, times the one before or smaller; the walk's own rounding is 1e-13.
-TEST_CASE("exact path derivatives: under a ball of glass they are those of differences of the whole path") {
+TEST_CASE("exact path derivatives: under a ball of glass they are the central differences of the whole path") {
     const auto check = [](const auto& light) {
         for_photons(light, [](const auto& photon, const auto& sampler) {
             const auto path = follow<Twice>(photon, sampler);
@@ -114,7 +114,7 @@ TEST_CASE("exact path derivatives: the path is the plain walk's and so are the t
         const auto path = follow<Once>(photon, sampler);
         REQUIRE((deposit && path));
         CHECK(path->signature == signature.value());
-        const auto tangents = unit_tangents(*deposit);
+        const auto tangents = half_tangents(*deposit);
         CHECK(relative_difference(path->map.first, tangents) < 1e-13);
     });
 }
@@ -126,7 +126,7 @@ TEST_CASE("exact path derivatives: a photon that does not land has none") {
     CHECK(!follow<Once>(astray, Sampler<HaltonSequence>(sequence, 0)));
 }
 
-TEST_CASE("exact path derivatives: of a float renderer's photon they are right to its rounding") {
+TEST_CASE("exact path derivatives: a photon in float has them to within its rounding") {
     const HaltonSequence sequence(1);
     for (std::uint64_t i = 0; i < 8; ++i) {
         Sampler<HaltonSequence> of_float(sequence, i), of_double(sequence, i);
@@ -176,7 +176,7 @@ template <class L>
 
 // Within a cell, whose side falls like the root of the photons' number, H is fitted and then interpolated to second
 // order: four times the photons make a quarter of the error.
-TEST_CASE("exact path derivatives: the fitted ones come to them as photons come together") {
+TEST_CASE("exact path derivatives: fitted derivatives converge to them as photons get denser") {
     const auto check = [](const auto& light) {
         std::vector<double> errors;
         for (const std::size_t count : {1500u, 6000u, 24000u})

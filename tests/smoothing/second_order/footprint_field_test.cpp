@@ -50,7 +50,7 @@ constexpr std::size_t count = 16384;
 
 } // namespace
 
-TEST_CASE("footprint field: photons on a path that too few took get nothing") {
+TEST_CASE("footprint field: a path that too few photons took has no field") {
     auto photons = photons_of(affine, halton(1000));
     for (std::size_t i = 0; i < 63; ++i)
         photons[16 * i].signature = 2;
@@ -62,8 +62,8 @@ TEST_CASE("footprint field: photons on a path that too few took get nothing") {
     CHECK(!field.at({0.5, 0.5}, photons[1].frame, 77));
 }
 
-// Each sheet has derivatives of its own, and neither has a border where the other one's photons are.
-TEST_CASE("footprint field: sheets that lie over each other by chance do not disturb each other") {
+// Each group has derivatives of its own, and neither has a border where the other one's photons are.
+TEST_CASE("footprint field: groups that overlap by chance do not disturb each other") {
     const double u02 = unit_of(double(count)) * unit_of(double(count));
     for (const double share : {0.5, 0.2, 0.05}) {
         CAPTURE(share);
@@ -85,9 +85,9 @@ TEST_CASE("footprint field: sheets that lie over each other by chance do not dis
     }
 }
 
-// With random photons on a straight map the rule asks for s in proportion to g^(-1/5) / sqrt(p) in the sheet's own
+// With random photons on a straight map the rule asks for s in proportion to g^(-1/5) / sqrt(p) in the group's own
 // unit, g in proportion to (Q / p)²: that is p^(-1/10).
-TEST_CASE("footprint field: of a share of the photons each stands for more of the domain") {
+TEST_CASE("footprint field: photons of a small group have wider footprints") {
     const FootprintField all = field_of(photons_of(quadratic, halton(count)), false, 1000);
     for (const double share : {0.5, 0.8}) {
         CAPTURE(share);
@@ -102,7 +102,7 @@ TEST_CASE("footprint field: of a share of the photons each stands for more of th
     }
 }
 
-TEST_CASE("footprint field: sheets side by side have a border between them") {
+TEST_CASE("footprint field: groups side by side have a border between them") {
     auto photons = photons_of(affine, halton(count));
     for (MapPhoton& photon : photons)
         photon.signature = photon.sample.at[0] < 0.47 ? 1 : 2;

@@ -105,7 +105,7 @@ TEST_CASE("path derivatives: the scale of the displacements and of the weights d
     }
 }
 
-TEST_CASE("path derivatives: few photons give the second derivatives alone") {
+TEST_CASE("path derivatives: few photons determine the second derivatives only") {
     Draws draw(9);
     Cubic map(draw);
     map.at_zero.third = {};
@@ -126,7 +126,7 @@ TEST_CASE("path derivatives: few photons give the second derivatives alone") {
 }
 
 // Two lines cross but do not span the quadratic terms of nine unknowns: the five others are still to be had.
-TEST_CASE("path derivatives: what the photons do not span is left out or refused") {
+TEST_CASE("path derivatives: photons on a line are refused and undetermined third derivatives are zero") {
     Draws draw(10);
     Cubic map(draw);
     PathDerivatives fitted;
@@ -161,7 +161,7 @@ TEST_CASE("path derivatives: what the photons do not span is left out or refused
         CHECK(inner(t, t) == 0);
 }
 
-TEST_CASE("path derivatives: second derivatives turn with the axes") {
+TEST_CASE("path derivatives: second derivatives in other axes are those of the turned map") {
     Draws draw(12);
     const Cubic map(draw);
     const PlaneMatrix axes{{draw.in(-1, 1), draw.in(-1, 1)}, {draw.in(-1, 1), draw.in(-1, 1)}};
@@ -250,7 +250,7 @@ struct Differences {
 #if defined(__SIZEOF_FLOAT128__) // else the differences have no digits left
 // What the fit leaves out of J is of third order, so H is off by the square of the photons' distance, which falls with
 // their number N like 1/N. The next order is that square again times the ball's own scale: below 0.1 here.
-TEST_CASE("path derivatives: under a ball of glass they come near those of differences as photons come together") {
+TEST_CASE("path derivatives: under a ball of glass they converge to central differences as photons get denser") {
     std::vector<double> errors;
     for (const double side : {0.04, 0.02, 0.01, 0.005})
         errors.push_back(error_of_second(side));

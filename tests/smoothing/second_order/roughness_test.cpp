@@ -56,7 +56,7 @@ TEST_CASE("roughness: photons on the map itself show none") {
 
 // Two photons a step of 2 apart whose tangents are J (1 ± e): they differ by 2 e J, and J⁻¹ of that, by either
 // one's own J, has |.|² of 2 (2 e / (1 ± e))², the lesser of which counts.
-TEST_CASE("roughness: the jump between two photons by their distance") {
+TEST_CASE("roughness: it is the jump between two photons over their distance") {
     const PathDerivatives straight{map.first, {}, {}};
     const double e = 0.1;
     const auto scaled = [&](double s) { return Tangents{s * map.first[0], s * map.first[1]}; };
@@ -68,7 +68,7 @@ TEST_CASE("roughness: the jump between two photons by their distance") {
     CHECK(roughness(photons) == doctest::Approx(2 * ratio * ratio / 8).epsilon(1e-9));
 }
 
-TEST_CASE("roughness: no jump counts for more than so much") {
+TEST_CASE("roughness: each jump counts for at most the limit") {
     std::vector<TangentResidual> photons = photons_on(map);
     for (std::size_t i = 0; i < photons.size(); ++i)
         photons[i] = residual({photons[i].at[0], photons[i].at[1]},

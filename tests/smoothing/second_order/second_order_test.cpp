@@ -133,7 +133,7 @@ TEST_CASE("second order: the bias falls with the fourth power of the smoothing a
 // k² between cells 7 units apart: k² is too large by up to 7²/8, 2% of it, and half of an eighth of that ends up in
 // the irradiance. Beyond d = 110 footprints do not grow: for x = 20 that is z = −0.82, and what is missing 2.3 ·
 // 0.18^(5/2) = 3% of the plain irradiance, of the shifted one half of a percent.
-TEST_CASE("second order: where footprints narrow towards a border the light stays even") {
+TEST_CASE("second order: light stays even where footprints narrow towards a border") {
     constexpr double side = 256, photons = side * side;
     const auto identity = [](double u, double v) { return Landing{{u, v, 0}, {1, 0, 0}, {0, 1, 0}}; };
     const auto all = photons_of(identity, lattice(std::size_t(side), std::size_t(side)));
@@ -172,7 +172,7 @@ TEST_CASE("second order: where footprints narrow towards a border the light stay
 }
 
 // Σ t tᵀ of the new half tangents is J S Jᵀ, and the shift m₂/2 (S : H + J div S).
-TEST_CASE("second order: a footprint has the shape and the place that the field says") {
+TEST_CASE("second order: a footprint has the shape and the shift that the field gives") {
     const auto samples = halton(3000);
     const auto photons = photons_of(quadratic, samples);
     SerialExecutor executor;
@@ -186,7 +186,7 @@ TEST_CASE("second order: a footprint has the shape and the place that the field 
         if (footprints.apply(splat))
             continue; // shortened
         ++checked;
-        const auto j = unit_tangents(*photon.deposit);
+        const auto j = half_tangents(*photon.deposit);
         const Symmetric2 expected = congruent({{j[0].x, j[0].y}, {j[1].x, j[1].y}}, said->shape);
         const Symmetric2 spread = spread_of(*splat.deposit);
         const double tolerance = 64 * epsilon * expected.trace();
@@ -204,7 +204,7 @@ TEST_CASE("second order: a footprint has the shape and the place that the field 
     CHECK(checked > 2500);
 }
 
-TEST_CASE("second order: a kernel's own second moment is what counts") {
+TEST_CASE("second order: a kernel of larger second moment gets a smaller footprint and the same shift") {
     const auto photons = photons_of(quadratic, lattice(64, 64));
     const Footprints biweight = footprints_of(photons, {.stratified = true, .photons = 4096});
     const Footprints uniform =
@@ -218,7 +218,7 @@ TEST_CASE("second order: a kernel's own second moment is what counts") {
     CHECK(b.deposit->position.y == doctest::Approx(a.deposit->position.y).epsilon(1e-9));
 }
 
-TEST_CASE("second order: shifts beyond the bound are shortened and reported") {
+TEST_CASE("second order: shifts beyond the limit are shortened and reported") {
     const auto photons = photons_of(quadratic, lattice(64, 64));
     const auto with = [&](double largest) {
         return footprints_of(photons, {.policy = {.largest_shift = largest}, .smoothing = 20, .photons = 4096});
@@ -269,7 +269,7 @@ TEST_CASE("second order: on a curved surface the shift stays in the tangent plan
     CHECK(longest > 1e-3);
 }
 
-TEST_CASE("second order: tangents beyond the first two are as wide as the footprint is on average") {
+TEST_CASE("second order: tangents beyond the first two are scaled by the footprint's mean radius") {
     std::vector<TracedPhoton<D, double, 3>> photons;
     for (const MapPhoton& p : photons_of(affine, lattice(16, 16))) {
         const auto& d = *p.deposit;
@@ -287,7 +287,7 @@ TEST_CASE("second order: tangents beyond the first two are as wide as the footpr
     CHECK(photon.deposit->d_position[0].x == doctest::Approx(6 * photons[100].deposit->d_position[0].x).epsilon(1e-12));
 }
 
-TEST_CASE("second order: photons that the field knows nothing of get a smoothing all the same") {
+TEST_CASE("second order: photons outside the field get a fallback smoothing") {
     const auto known = photons_of(quadratic, lattice(32, 32));
     const Footprints chosen = footprints_of(known, {.stratified = true, .photons = 1024}),
                      given = footprints_of(known, {.smoothing = 11, .stratified = true, .photons = 1024});
@@ -319,7 +319,7 @@ TEST_CASE("second order: photons that the field knows nothing of get a smoothing
     CHECK(one.deposit->position != enough[30].deposit->position);
 }
 
-TEST_CASE("second order: each light has a field of its own whatever its number") {
+TEST_CASE("second order: each light has its own field whatever its index") {
     const auto straight = photons_of(affine, halton(1000)), bent = photons_of(quadratic, halton(1000));
     std::vector<MapPhoton> both;
     for (std::size_t i = 0; i < 1000; ++i) {

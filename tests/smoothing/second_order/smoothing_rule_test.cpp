@@ -38,29 +38,28 @@ void check_close(const Symmetric2& a, const Symmetric2& b, double tolerance) {
 // With g = 0.02 (tr Q)² the bias is g s⁴, so that the squared error is g² s⁸ + 2.8/s⁴, or + 1.8/s² for random
 // photons: least at s¹² = 1.4/g², s¹⁰ = 0.45/g². The rule has the roots of that to four digits, 1.028 and
 // 0.923: to 1e-3 in s².
-TEST_CASE("smoothing rule: where the map bends alike in all directions s is the formula's") {
+TEST_CASE("smoothing rule: s follows the formula if the map bends equally in all directions") {
     for (const double half_q2 : {1e-5, 1e-4, 1e-3, 1e-2}) {
         const double q2 = 2 * half_q2, g = 0.02 * q2 * q2;
         const Symmetric2 log_q = log_of(Symmetric2::isotropic(half_q2));
         const double halton = std::pow(1.4 / (g * g), 1.0 / 12), random = std::pow(0.45 / (g * g), 1.0 / 10);
-        check_close(smoothing_tensor(log_q, {.stratified = true}, unbounded), Symmetric2::isotropic(halton * halton),
+        check_close(shape_tensor(log_q, {.stratified = true}, unbounded), Symmetric2::isotropic(halton * halton),
                     1e-3 * halton * halton);
-        check_close(smoothing_tensor(log_q, {}, unbounded), Symmetric2::isotropic(random * random),
-                    1e-3 * random * random);
+        check_close(shape_tensor(log_q, {}, unbounded), Symmetric2::isotropic(random * random), 1e-3 * random * random);
     }
 }
 
 // The rule for two coordinates and random photons has 0.923 where this one has 1.2 or 1.5.
-TEST_CASE("smoothing rule: area lights have wider footprints of the same shape and the same bounds") {
+TEST_CASE("smoothing rule: area lights have wider footprints of the same shape and bounds") {
     Draws draw(5);
     for (int i = 0; i < 100; ++i) {
-        const Symmetric2 log_q = log_of(any_bending(draw)), s = smoothing_tensor(log_q, {}, unbounded);
+        const Symmetric2 log_q = log_of(any_bending(draw)), s = shape_tensor(log_q, {}, unbounded);
         for (const bool stratified : {true, false}) {
             const double wider = (stratified ? 1.2 : 1.5) / 0.923;
-            check_close(area_smoothing_tensor(log_q, stratified, unbounded), wider * wider * s, 1e-12 * s.trace());
+            check_close(area_shape_tensor(log_q, stratified, unbounded), wider * wider * s, 1e-12 * s.trace());
         }
         const SmoothingBounds bounds{.least = 5, .least_radius = 6, .largest_radius = 7};
-        const Principal2 radii2(area_smoothing_tensor(log_q, true, bounds));
+        const Principal2 radii2(area_shape_tensor(log_q, true, bounds));
         CHECK(radii2.larger <= 49 * (1 + 1e-12));
         CHECK(radii2.smaller >= 36 * (1 - 1e-12));
     }
@@ -69,7 +68,7 @@ TEST_CASE("smoothing rule: area lights have wider footprints of the same shape a
 TEST_CASE("smoothing rule: the footprint is wide where the map is straight and narrow where it bends") {
     Draws draw(3);
     for (int i = 0; i < 300; ++i) {
-        const Symmetric2 q = any_bending(draw), s = smoothing_tensor(log_of(q), {.stratified = i % 2 == 0}, unbounded);
+        const Symmetric2 q = any_bending(draw), s = shape_tensor(log_of(q), {.stratified = i % 2 == 0}, unbounded);
         const Principal2 axes(q);
         // S Q is a multiple of one: with vectors, S (Q v) = c v.
         const double c = 0.5 * (s.xx * q.xx + 2 * s.xy * q.xy + s.yy * q.yy); // half of tr(S Q)
@@ -110,22 +109,22 @@ TEST_CASE("smoothing rule: bounds hold for any bend") {
     for (int i = 0; i < 1000; ++i) {
         const double angle = draw.in(0, 6.3), c = std::cos(angle), s = std::sin(angle);
         const Symmetric2 q = congruent({{c, s}, {-s, c}}, {std::exp(draw.in(-30, 3)), 0, std::exp(draw.in(-30, 3))});
-        const Principal2 shape(smoothing_tensor(log_bending(q, bounds), {.stratified = i % 2 == 0}, bounds));
+        const Principal2 shape(shape_tensor(log_bending(q, bounds), {.stratified = i % 2 == 0}, bounds));
         CHECK(shape.smaller >= 2 * 2 * (1 - 1e-9));
         CHECK(shape.larger <= 32 * 32 * (1 + 1e-9));
         CHECK(shape.larger <= 8 * 8 * shape.smaller * (1 + 1e-9));
     }
     // The least s bounds the area, not one radius.
-    const Principal2 least(smoothing_tensor(log_bending({1, 0, 0.25}, bounds), {.stratified = true}, bounds));
+    const Principal2 least(shape_tensor(log_bending({1, 0, 0.25}, bounds), {.stratified = true}, bounds));
     CHECK(least.larger * least.smaller == doctest::Approx(std::pow(5, 4)).epsilon(1e-12));
     CHECK(least.larger == doctest::Approx(2 * 25).epsilon(1e-12));
 }
 
 // The ellipse x' S⁻¹ x < 1 reaches sqrt(n' S n) along n, where it touches at S n: the conjugate direction.
-TEST_CASE("smoothing rule: a bound along a direction keeps its conjugate and sets the reach") {
+TEST_CASE("smoothing rule: a bound along a direction sets the radius there and keeps the conjugate one") {
     Draws draw(8);
     for (int i = 0; i < 200; ++i) {
-        const Symmetric2 s = smoothing_tensor(log_of(any_bending(draw)), {.stratified = true}, unbounded);
+        const Symmetric2 s = shape_tensor(log_of(any_bending(draw)), {.stratified = true}, unbounded);
         const double angle = draw.in(0, 6.3);
         const Plane2 n{std::cos(angle), std::sin(angle)}, touch = s(n);
         const double reach = std::sqrt(inner(n, touch)), most = draw.in(0.1, 0.9) * reach;

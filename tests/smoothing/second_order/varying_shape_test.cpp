@@ -20,7 +20,7 @@ namespace {
 } // namespace
 
 // S + x S', with a bound of d + x d': differences of what comes out for x = ± h, by h² and rounding over h.
-TEST_CASE("varying shape: what a bound does to the shape it does to its derivatives") {
+TEST_CASE("varying shape: bounding a shape bounds its derivatives consistently") {
     Draws draw(1);
     constexpr double h = 1e-4;
     for (int i = 0; i < 200; ++i) {
@@ -52,7 +52,7 @@ TEST_CASE("varying shape: what a bound does to the shape it does to its derivati
     }
 }
 
-TEST_CASE("varying shape: a bound far out changes nothing") {
+TEST_CASE("varying shape: a distant bound changes nothing") {
     VaryingShape shape{{9, 1, 4}, {1, 2, 3}, {4, 5, 6}};
     shape.bound_along({1, 0}, 8.5, {1, 1});
     CHECK((shape.value.xx == 9 && shape.value.xy == 1 && shape.value.yy == 4));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where a sheet of the map from an area light ends: at photons that took another path.
+/// @file  Where the photons of one path end in the domain of an area light.
 #pragma once
 
 #include "nephroid/smoothing/second_order/area_cells.hpp"
@@ -10,30 +10,33 @@
 
 namespace nephroid::detail {
 
-/// A plane in the domain of samples, seen from the middle of a cell; lengths in cells.
+/// A hyperplane in the domain, relative to the middle of a cell. Lengths are in cells.
 struct AreaBorder {
-    AreaSample outwards; ///< unit
-    double ahead;        ///< distance from the middle
+    AreaSample outwards; ///< unit normal
+    double distance;     ///< from the middle, along the normal
 
-    /// The same, seen from the middle of another cell.
-    [[nodiscard]] AreaBorder seen_from(const AreaCells::Place& here, const AreaCells::Place& there) const {
+    /// The same plane relative to the middle of another cell.
+    [[nodiscard]] AreaBorder seen_from(const AreaCells::CellCoordinates& here,
+                                       const AreaCells::CellCoordinates& there) const {
         AreaBorder moved = *this;
         for (std::size_t axis = 0; axis < 4; ++axis)
-            moved.ahead -= outwards[axis] * (double(there[axis]) - double(here[axis]));
+            moved.distance -= outwards[axis] * (double(there[axis]) - double(here[axis]));
         return moved;
     }
 };
 
-/// The border that passes a cell or one that touches it, if any does. Were the photons that are on the sheet and those
-/// that are not parted by a plane, and even on both sides of it, then it would lie across the line between their means,
-/// and as far ahead as their numbers say.
+/// The border of a path group in a cell or in one that touches it.
 ///
-/// @param is_on  is_on(i): whether photon i is on the sheet. The domain ends like the sheet does, but not along numbers
-///               that are split in two at most
-/// @return  nothing where all are on the sheet, or where those that are not lie amid the others
-template <class IsOn>
-[[nodiscard]] std::optional<AreaBorder> border_about(const AreaCells& cells, std::size_t cell,
-                                                     std::span<const AreaSample> samples, const IsOn& is_on) {
+/// The border is estimated as if a plane separated the photons of the group from all others, and the photons were
+/// uniform on both sides. Then the plane is perpendicular to the line between the two means, and the counts give its
+/// distance.
+///
+/// @param is_in_group  is_in_group(i): whether photon i belongs to the group. The end of the domain counts as photons
+///                     outside the group, except along coordinates with one or two cells
+/// @return  nothing where all photons belong to the group, or where the two kinds are mixed
+template <class IsInGroup>
+[[nodiscard]] std::optional<AreaBorder> border_near(const AreaCells& cells, std::size_t cell,
+                                                    std::span<const AreaSample> samples, const IsInGroup& is_in_group) {
     struct Side {
         AreaSample sum{};
         double count = 0;
@@ -43,37 +46,37 @@ template <class IsOn>
             count += weight;
         }
     };
-    Side on, off;
+    Side inside, outside;
     cells.for_each_around(cell, [&](const std::array<int, 4>& step, std::size_t other) {
         if (other < cells.size()) {
             for (const std::uint32_t i : cells.photons(other))
-                (is_on(i) ? on : off).add(cells.from_middle(cell, samples[i], true), 1);
+                (is_in_group(i) ? inside : outside).add(cells.from_middle(cell, samples[i], true), 1);
             return;
         }
         AreaSample beyond{};
-        const auto place = cells.place_of(cell);
+        const auto here = cells.coordinates_of(cell);
         for (std::size_t axis = 0; axis < 4; ++axis) {
-            const bool ends = place[axis] + std::size_t(step[axis]) >= cells.counts()[axis];
+            const bool ends = here[axis] + std::size_t(step[axis]) >= cells.counts()[axis];
             if (ends && !cells.is_fine(axis))
                 return;
             beyond[axis] = cells.is_fine(axis) ? step[axis] : 0;
         }
-        off.add(beyond, double(AreaCells::photons_per_cell));
+        outside.add(beyond, double(AreaCells::photons_per_cell));
     });
-    if (!(on.count > 0) || !(off.count > 0))
+    if (!(inside.count > 0) || !(outside.count > 0))
         return std::nullopt;
     AreaBorder border{};
     double norm2 = 0;
     for (std::size_t axis = 0; axis < 4; ++axis) {
-        border.outwards[axis] = off.sum[axis] / off.count - on.sum[axis] / on.count;
+        border.outwards[axis] = outside.sum[axis] / outside.count - inside.sum[axis] / inside.count;
         norm2 += border.outwards[axis] * border.outwards[axis];
     }
-    constexpr double width = 3; // of the cells looked at; a plane across them has the means half of that apart
+    constexpr double width = 3; // of the cells examined; a plane through their middle puts the means half of it apart
     if (!(norm2 > 0.25))
         return std::nullopt;
     for (double& x : border.outwards)
         x /= std::sqrt(norm2);
-    border.ahead = width * (0.5 - off.count / (on.count + off.count));
+    border.distance = width * (0.5 - outside.count / (inside.count + outside.count));
     return border;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The photons of an area light: which of them tell of the same map, and along which of their numbers it
-///        changes.
+/// @file  The photons of an area light: which of them took the same path, and along which emission coordinates their
+///        tangents change.
 #pragma once
 
 #include "nephroid/smoothing/second_order/area_cells.hpp"
@@ -16,7 +16,7 @@
 
 namespace nephroid::detail {
 
-/// Photons of one area light, and the four numbers that each was drawn from.
+/// Photons of one area light, with the four emission coordinates of each.
 class AreaPhotons {
 public:
     explicit AreaPhotons(const PathSamples& photons) : photons_(photons), samples_(photons.size()) {
@@ -28,21 +28,22 @@ public:
     [[nodiscard]] const PathSample& operator[](std::size_t i) const { return photons_[i]; }
     [[nodiscard]] std::span<const AreaSample> samples() const { return samples_; }
 
-    /// Whether a photon landed at the end of a path.
+    /// Whether a photon landed at the end of the path with a signature.
     [[nodiscard]] bool is_on(std::size_t i, std::uint32_t signature) const {
         return photons_[i].has_landed && photons_[i].signature == signature;
     }
-    /// Whether it tells of the map there too: what will be an invalid splat must not be its neighbours' end.
-    [[nodiscard]] bool tells_of(std::size_t i, std::uint32_t signature) const {
-        return is_on(i, signature) && is_telling(photons_[i]);
+    /// Whether its tangents are usable in a fit as well: one photon with invalid tangents must not spoil its
+    /// neighbours.
+    [[nodiscard]] bool is_usable_on(std::size_t i, std::uint32_t signature) const {
+        return is_on(i, signature) && is_usable(photons_[i]);
     }
 
-    /// The path that most of some photons took, if any of them tells of the map.
+    /// The path that most of some photons took; nothing if none of them is usable.
     [[nodiscard]] std::optional<std::uint32_t> commonest_path(std::span<const std::uint32_t> among) const {
         std::size_t most = 0;
         std::uint32_t signature = 0;
         for (const std::uint32_t i : among) {
-            if (!is_telling(photons_[i]))
+            if (!is_usable(photons_[i]))
                 continue;
             const std::uint32_t candidate = photons_[i].signature;
             const auto same = std::size_t(
@@ -55,33 +56,34 @@ public:
         return most > 0 ? std::optional(signature) : std::nullopt;
     }
 
-    /// How many cells there should be along each number: as its change of the tangents deserves, which coarse cells
-    /// tell.
-    [[nodiscard]] AreaCells::Place cell_counts() const {
+    /// How many cells to make along each axis: in proportion to how much the tangents change along it, measured on a
+    /// coarse grid.
+    [[nodiscard]] AreaCells::CellCoordinates cell_counts() const {
         const AreaCells coarse(samples_, AreaCells::counts_for(size(), {1, 1, 1, 1}));
-        constexpr double least = 1e-3; // relative change over the domain: less is none
+        constexpr double least = 1e-3; // relative change over the domain; less than this counts as none
         AreaSample need{};
-        double told = 0;
+        double measured = 0;
         for (std::size_t cell = 0; cell < coarse.size(); ++cell) {
             const auto change = relative_change(coarse, cell);
             if (!change)
                 continue;
             for (std::size_t axis = 0; axis < 4; ++axis)
                 need[axis] += double(coarse.counts()[axis]) * (*change)[axis];
-            ++told;
+            ++measured;
         }
         for (double& n : need)
-            n = (std::max)(n, least * told);
+            n = (std::max)(n, least * measured);
         return AreaCells::counts_for(size(), need);
     }
 
 private:
-    [[nodiscard]] static bool is_telling(const PathSample& photon) {
+    [[nodiscard]] static bool is_usable(const PathSample& photon) {
         const auto& t = photon.tangents;
         return photon.has_landed && photon.frame.is_of_area() && std::isfinite(inner(t[0], t[0]) + inner(t[1], t[1]));
     }
 
-    /// Of the tangents across a cell, along each number; nothing if it has too few photons.
+    /// How much the tangents change across a cell along each axis, over their own length; nothing if the cell has too
+    /// few photons.
     [[nodiscard]] std::optional<AreaSample> relative_change(const AreaCells& cells, std::size_t cell) const {
         const auto signature = commonest_path(cells.photons(cell));
         if (!signature)
@@ -90,13 +92,13 @@ private:
         std::size_t count = 0;
         const EmissionFrame* frame = nullptr;
         for (const std::uint32_t i : cells.photons(cell)) {
-            if (!tells_of(i, *signature))
+            if (!is_usable_on(i, *signature))
                 continue;
             const PathSample& photon = photons_[i];
             if (frame == nullptr)
                 frame = &photon.frame;
             const AreaSample at = cells.from_middle(cell, samples_[i], false);
-            slopes.add({1, at[0], at[1], at[2], at[3]}, turned(photon.tangents, frame->turn_of(photon.frame)), 1);
+            slopes.add({1, at[0], at[1], at[2], at[3]}, turned(photon.tangents, frame->rotation_of(photon.frame)), 1);
             ++count;
         }
         std::array<TangentPair, 5> x;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-/// @file  How much the map from light to surface bends within a footprint, and the shape of footprint that bends least.
+/// @file  How much the map from light to surface bends within a footprint, and which shape of footprint bends least.
 ///
 /// A footprint of shape S = L Lᵀ bends by
 ///
-///     B(S) = |h|² + 0.3 |t| + (r/2 + 5/(π N)) |L|²,
+///     B(S) = |h|² + 0.3 |t| + (r/2 + 5/(π N)) |L|².
 ///
-/// h and t being J⁻¹H and J⁻¹T in coordinates in which the footprint is round, r the roughness and N the photons
-/// [include/nephroid/README.md, "Footprints from neighbours"].
+/// Here h and t are J⁻¹H and J⁻¹T in coordinates in which the footprint is round, r is the roughness and N the
+/// number of photons [include/nephroid/README.md, "Footprints from neighbours"].
 #pragma once
 
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
@@ -19,7 +19,7 @@
 
 namespace nephroid::detail {
 
-/// J⁻¹ of a vector in the image of J (what sticks out is dropped), kept finite where J is singular.
+/// Applies J⁻¹ to a vector after projecting it onto the image of J. Stays finite where J is singular.
 class EmissionPullback {
 public:
     explicit EmissionPullback(const std::array<Space3, 2>& first)
@@ -39,39 +39,41 @@ private:
     double determinant_;
 };
 
-/// exp of the symmetric matrix (p, q; q, −p): stretches by e^|x| along one axis and as much shorter across.
-[[nodiscard]] inline PlaneMatrix stretching(Plane2 x) {
+/// exp of the symmetric matrix (p, q; q, −p): stretches by e^|x| along one axis and shrinks by as much across it.
+[[nodiscard]] inline PlaneMatrix stretching_matrix(Plane2 x) {
     const double size = std::hypot(x.x, x.y), c = std::cosh(size), s = size > 1e-12 ? std::sinh(size) / size : 1;
     return {{c + s * x.x, s * x.y}, {s * x.y, c - s * x.x}};
 }
 
-/// What bends, in the coordinates of a footprint.
-class Bend {
+/// The terms of B in the coordinates of a footprint.
+class BendingTerms {
 public:
-    /// @param most    |h|² and |t| are at most this: what bends by more within one photon's own share is not resolved
-    /// @param ground  what bends besides, in any direction
-    Bend(const PathDerivatives& map, double most, double ground) : ground_(Symmetric2::isotropic(ground)) {
+    /// @param limit      of |h|² and |t|: photons do not resolve more bending within one photon's part of the domain
+    /// @param isotropic  further bending, the same in every direction
+    BendingTerms(const PathDerivatives& map, double limit, double isotropic)
+        : isotropic_(Symmetric2::isotropic(isotropic)) {
         const EmissionPullback pull_back(map.first);
         for (std::size_t i = 0; i < 3; ++i)
             second_[i] = pull_back(map.second[i]);
         for (std::size_t i = 0; i < 4; ++i)
             third_[i] = pull_back(map.third[i]);
-        if (const double size2 = second2(); size2 > most)
+        if (const double size2 = second2(); size2 > limit)
             for (Plane2& h : second_)
-                h = std::sqrt(most / size2) * h;
-        if (const double size2 = third2(); size2 > most * most)
+                h = std::sqrt(limit / size2) * h;
+        if (const double size2 = third2(); size2 > limit * limit)
             for (Plane2& t : third_)
-                t = (most / std::sqrt(size2)) * t;
+                t = (limit / std::sqrt(size2)) * t;
     }
 
     /// B for S = 1 in these coordinates.
-    [[nodiscard]] double size() const { return second2() + 0.3 * std::sqrt(third2()) + ground_.trace(); }
+    [[nodiscard]] double total() const { return second2() + 0.3 * std::sqrt(third2()) + isotropic_.trace(); }
 
-    /// How log B changes with a stretching (`stretching`), by its two numbers.
+    /// The gradient of log B by the two parameters of `stretching_matrix`, at no stretch.
     [[nodiscard]] Plane2 slope() const {
         const auto& h = second_;
         const auto& t = third_;
-        // Sums over all indices but two lower ones, and but the upper one twice.
+        // Contractions of h and of t with themselves: the positive ones leave two lower indices open, the negative
+        // ones the two upper indices.
         Symmetric2 change = 4 * Symmetric2{inner(h[0], h[0]) + inner(h[1], h[1]), inner(h[0], h[1]) + inner(h[1], h[2]),
                                            inner(h[1], h[1]) + inner(h[2], h[2])};
         change += -2 * (Symmetric2::outer(h[0]) + 2 * Symmetric2::outer(h[1]) + Symmetric2::outer(h[2]));
@@ -83,13 +85,15 @@ public:
             change += (-0.3 / size3) * (Symmetric2::outer(t[0]) + 3 * Symmetric2::outer(t[1]) +
                                         3 * Symmetric2::outer(t[2]) + Symmetric2::outer(t[3]));
         }
-        change += 2 * ground_;
-        return (1 / size()) * Plane2{change.xx - change.yy, 2 * change.xy};
+        change += 2 * isotropic_;
+        return (1 / total()) * Plane2{change.xx - change.yy, 2 * change.xy};
     }
 
-    /// The same in other coordinates, of which `axes` takes a vector to these; its determinant must be 1.
-    [[nodiscard]] Bend turned(const PlaneMatrix& axes) const {
-        Bend result = *this;
+    /// The same terms in other coordinates.
+    ///
+    /// @param axes  takes a vector from the other coordinates to these; its determinant must be 1
+    [[nodiscard]] BendingTerms turned(const PlaneMatrix& axes) const {
+        BendingTerms result = *this;
         const PlaneMatrix back = axes.inverse();
         const auto along2 = [&](Plane2 a, Plane2 b) {
             return (a.x * b.x) * second_[0] + ((a.x * b.y + a.y * b.x) * second_[1] + (a.y * b.y) * second_[2]);
@@ -104,7 +108,7 @@ public:
         result.third_ = {
             back(along3(axes.first, axes.first, axes.first)), back(along3(axes.first, axes.first, axes.second)),
             back(along3(axes.first, axes.second, axes.second)), back(along3(axes.second, axes.second, axes.second))};
-        result.ground_ = congruent(axes.transposed(), ground_);
+        result.isotropic_ = congruent(axes.transposed(), isotropic_);
         return result;
     }
 
@@ -119,16 +123,16 @@ private:
 
     std::array<Plane2, 3> second_;
     std::array<Plane2, 4> third_;
-    Symmetric2 ground_;
+    Symmetric2 isotropic_;
 };
 
-/// The stretching that leads downhill: a step of Newton's method for log B, its curvature by differences.
-[[nodiscard]] inline Plane2 downhill(const Bend& bend) {
+/// A step of Newton's method towards the stretch with the least log B. Its second derivatives come from differences.
+[[nodiscard]] inline Plane2 newton_step(const BendingTerms& bend) {
     constexpr double h = 1e-3, longest = 0.5;
     const Plane2 slope = bend.slope();
-    const Plane2 p = (1 / h) * (bend.turned(stretching({h, 0})).slope() + -1.0 * slope);
-    const Plane2 q = (1 / h) * (bend.turned(stretching({0, h})).slope() + -1.0 * slope);
-    // Convex: only a B that falls for ever has no curvature along some direction.
+    const Plane2 p = (1 / h) * (bend.turned(stretching_matrix({h, 0})).slope() + -1.0 * slope);
+    const Plane2 q = (1 / h) * (bend.turned(stretching_matrix({0, h})).slope() + -1.0 * slope);
+    // log B is convex. It has no curvature along a direction in which B decreases without end, so some is added.
     const Symmetric2 curvature{p.x + 0.01, 0.5 * (p.y + q.x), q.y + 0.01};
     const double d = curvature.determinant();
     const Plane2 step = d > 0 ? (-1 / d) * Plane2{curvature.yy * slope.x - curvature.xy * slope.y,
@@ -138,39 +142,41 @@ private:
     return length > longest ? (longest / length) * step : step;
 }
 
-/// Q: how much the map bends, by direction, per u0²: footprints that bend least are in proportion to Q⁻¹, and S of
-/// that shape bends by tr(S Q).
+/// Q: how much the map bends in each direction, per u0². The footprint that bends least has a shape S in proportion to
+/// Q⁻¹, and it bends by tr(S Q).
 ///
-/// @param photons  emitted into this domain, N: no footprint should be of the domain's own size
-/// @param share    of them that took this path (PhotonDensity): each stands for so much more of the domain
-/// @param roughness  what bends besides (`roughness`), in any direction, per u0²
-/// @param stretch  longest to shortest radius of a footprint, at most
+/// @param photons    emitted into this domain, N: keeps footprints smaller than the domain
+/// @param share      of the photons that took this path (PhotonDensity): each stands for 1/share times as much of the
+///                   domain
+/// @param roughness  of the map (`roughness`), per u0²
+/// @param stretch    upper bound of a footprint's longest over its shortest radius
 [[nodiscard]] inline Symmetric2 bending(const PathDerivatives& map, double photons, double share = 1,
                                         double roughness = 0,
                                         double stretch = std::numeric_limits<double>::infinity()) {
-    const Bend bend(map, share, 0.5 * roughness + 5 / (pi<double> * photons));
+    const BendingTerms bend(map, share, 0.5 * roughness + 5 / (pi<double> * photons));
     PlaneMatrix axes{{1, 0}, {0, 1}};
     const auto shape = [&] { return Principal2(congruent(axes, Symmetric2::isotropic(1))); };
-    constexpr int most_steps = 16; // a dozen where the shape is a needle; half of that as a rule
+    constexpr int most_steps = 16; // usually 6 suffice; a needle takes 12
     for (int step = 0; step < most_steps; ++step) {
-        const Plane2 x = downhill(bend.turned(axes));
-        axes = axes * stretching(x);
+        const Plane2 x = newton_step(bend.turned(axes));
+        axes = axes * stretching_matrix(x);
         const Principal2 radii2 = shape();
         if (!(std::hypot(x.x, x.y) > 1e-7) || radii2.larger > 1e6 * radii2.smaller)
             break;
     }
     const Principal2 radii2 = shape();
     const double ratio = (std::min)(std::sqrt(radii2.larger / radii2.smaller), stretch);
-    // In the coordinates along and across.
+    // In coordinates along the longer axis and across it.
     const double along = std::sqrt(ratio), across = 1 / along;
     const Plane2 normal{-radii2.axis.y, radii2.axis.x};
-    const double size = bend.turned({along * radii2.axis, across * normal}).size();
-    return (0.5 * size) * radii2.with(1 / ratio, ratio);
+    const double total = bend.turned({along * radii2.axis, across * normal}).total();
+    return (0.5 * total) * radii2.with(1 / ratio, ratio);
 }
 
-/// The same for the photons of an area light, whose derivatives are a slice's: by how much a unit step in each
-/// direction changes the tangents. The light of all slices together is smooth where one of them bends, and footprints
-/// that are long where their own slice allows it have a larger error (a ring lit by a disk: 0.058 against 0.052).
+/// Q for the photons of an area light, whose derivatives are those along a slice: how much a unit step in each
+/// direction changes the tangents. The shape is not optimised as in `bending`: the light of all slices together is
+/// smooth where a single slice bends, and footprints as long as their own slice allows had a larger error (a ring lit
+/// by a disk: 0.058 against 0.052).
 [[nodiscard]] inline Symmetric2 slice_bending(const PathDerivatives& map, double photons, double roughness) {
     const EmissionPullback pull_back(map.first);
     const std::array<Plane2, 3> h = {pull_back(map.second[0]), pull_back(map.second[1]), pull_back(map.second[2])};
@@ -181,7 +187,7 @@ private:
     const Symmetric2 third{inner(t[0], t[0]) + 2 * inner(t[1], t[1]) + inner(t[2], t[2]),
                            inner(t[0], t[1]) + 2 * inner(t[1], t[2]) + inner(t[2], t[3]),
                            inner(t[1], t[1]) + 2 * inner(t[2], t[2]) + inner(t[3], t[3])};
-    Symmetric2 q = (1 / (std::max)(1.0, second.trace())) * second; // as in Bend, no more than a photon's share
+    Symmetric2 q = (1 / (std::max)(1.0, second.trace())) * second; // limited as in BendingTerms
     if (third.trace() > 0)
         q += (0.3 * (std::min)(1.0, std::sqrt(third.trace())) / third.trace()) * third;
     return q + Symmetric2::isotropic(0.5 * roughness + 5 / (pi<double> * photons));

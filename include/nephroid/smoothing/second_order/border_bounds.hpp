@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// @file  Footprints that reach no further than the sheet that their photon lies on.
+/// @file  Limits footprints to the borders of their path group and of the light's domain.
 #pragma once
 
 #include "nephroid/smoothing/second_order/field_options.hpp"
-#include "nephroid/smoothing/second_order/sheet_cells.hpp"
+#include "nephroid/smoothing/second_order/group_cells.hpp"
 #include "nephroid/smoothing/second_order/varying_shape.hpp"
 
 #include <algorithm>
@@ -13,61 +13,62 @@
 
 namespace nephroid::detail {
 
-/// Bounds the shapes of photons.
+/// Bounds the shapes of footprints beside borders.
 class BorderBounds {
 public:
     explicit BorderBounds(const FieldOptions& options) : scale_(options.scale), least_(options.bounds.least_radius) {}
 
-    /// By where the sheet ends within the domain, in the frame of the cell.
+    /// Bounds a shape by the border of the path group, in the frame of the cell.
     ///
-    /// @param away   to the photon from the middle of the cell
-    /// @param steps  a step along the photon's axes in the cell's frame, by columns
-    void by_sheet(VaryingShape& shape, const SheetCell& cell, Plane2 away, const PlaneMatrix& steps) const {
+    /// @param away   from the middle of the cell to the photon
+    /// @param steps  the photon's axes in the cell's frame, as columns
+    void bound_by_group(VaryingShape& shape, const GroupCell& cell, Plane2 away, const PlaneMatrix& steps) const {
         if (!std::isfinite(cell.border_distance))
             return;
         const Plane2 n = cell.border_direction;
         if (!(inner(n, n) > 0)) {
-            const double most = square(reach_to(cell.border_distance).most);
+            const double radius2 = square(reach_to(cell.border_distance).radius);
             const Principal2 principal(shape.value);
-            shape.value = principal.with((std::min)(principal.larger, most), (std::min)(principal.smaller, most));
+            shape.value = principal.with((std::min)(principal.larger, radius2), (std::min)(principal.smaller, radius2));
             return;
         }
         const Reach reach = reach_to(cell.border_distance - inner(n, away));
-        shape.bound_along(n, reach.most,
+        shape.bound_along(n, reach.radius,
                           {-reach.by_distance * inner(n, steps.first), -reach.by_distance * inner(n, steps.second)});
     }
 
-    /// By the borders of the light's domain, in the photon's own frame.
+    /// Bounds a shape by the borders of the light's domain, in the photon's own frame.
     ///
-    /// @param samples_by_place  how its samples change with the place
-    /// @param aspect            of the domain: its length along the first sample over that along the second
-    void by_domain(VaryingShape& shape, const std::array<double, 2>& sample, const PlaneMatrix& samples_by_place,
-                   double aspect) const {
-        const std::array<Plane2, 2> slopes{{{samples_by_place.first.x, samples_by_place.second.x},
-                                            {samples_by_place.first.y, samples_by_place.second.y}}};
-        const std::array<double, 2> steepness{std::sqrt(inner(slopes[0], slopes[0])),
-                                              std::sqrt(inner(slopes[1], slopes[1]))};
-        // Where the borders of the two samples do not meet at a right angle there is no corner: a disk's border is all
-        // four sides of the square, and the one is that of the triangle that the sample lies in.
-        const double lean = std::abs(inner(slopes[0], slopes[1])) / (steepness[0] * steepness[1]);
-        const auto room = [&](std::size_t axis) { return (std::min)(sample[axis], 1 - sample[axis]); };
-        const std::size_t nearest = room(0) * aspect < room(1) ? 0 : 1;
+    /// @param sample             emission coordinates of the photon, 0 to 1
+    /// @param samples_by_step    derivatives of the emission coordinates by a step in the frame
+    /// @param aspect             of the domain: its length along the first coordinate over that along the second
+    void bound_by_domain(VaryingShape& shape, const std::array<double, 2>& sample, const PlaneMatrix& samples_by_step,
+                         double aspect) const {
+        const std::array<Plane2, 2> gradients{
+            {{samples_by_step.first.x, samples_by_step.second.x}, {samples_by_step.first.y, samples_by_step.second.y}}};
+        const std::array<double, 2> norms{std::sqrt(inner(gradients[0], gradients[0])),
+                                          std::sqrt(inner(gradients[1], gradients[1]))};
+        // The borders of a rectangular domain meet at right angles, and each one bounds the footprint. A disk's border
+        // has no corners: all four sides of the square map onto it, and the nearest side bounds the footprint alone.
+        const double cosine = std::abs(inner(gradients[0], gradients[1])) / (norms[0] * norms[1]);
+        const auto to_border = [&](std::size_t axis) { return (std::min)(sample[axis], 1 - sample[axis]); };
+        const std::size_t nearest = to_border(0) * aspect < to_border(1) ? 0 : 1;
         for (const std::size_t axis : {nearest, 1 - nearest}) {
-            if (axis != nearest && lean > 0.3)
+            if (axis != nearest && cosine > 0.3)
                 continue;
             for (const bool upper : {false, true}) {
-                const double distance = (upper ? 1 - sample[axis] : sample[axis]) / steepness[axis];
-                const Plane2 n = ((upper ? 1 : -1) / steepness[axis]) * slopes[axis];
+                const double distance = (upper ? 1 - sample[axis] : sample[axis]) / norms[axis];
+                const Plane2 n = ((upper ? 1 : -1) / norms[axis]) * gradients[axis];
                 const Reach reach = reach_to(distance);
-                shape.bound_along(n, reach.most, -reach.by_distance * n);
+                shape.bound_along(n, reach.radius, -reach.by_distance * n);
             }
         }
     }
 
 private:
-    /// How far a footprint may reach towards a border, and how that changes with the distance to it.
+    /// The largest radius towards a border, and its derivative by the distance to the border.
     struct Reach {
-        double most, by_distance;
+        double radius, by_distance;
     };
 
     [[nodiscard]] Reach reach_to(double distance) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Which photons lie in which cell of a grid: a counting sort.
+/// @file  The photons in each cell of a grid, found by a counting sort.
 #pragma once
 
 #include "nephroid/version.hpp"
@@ -11,13 +11,14 @@
 
 namespace nephroid::detail {
 
-/// Photons 0 to count − 1, sorted by cell. Within a cell they keep their order.
+/// Photons 0 to count − 1, sorted by cell. Within a cell they keep their order. `CountingSort` sorts in parallel and
+/// keeps its memory; this one is made once and needs half of it.
 class CellContents {
 public:
     CellContents() = default;
-    /// @param cells    how many there are
-    /// @param count    of photons, < 2³²
-    /// @param cell_of  cell_of(i): photon i's cell, < cells; called twice for each
+    /// @param cells    number of cells
+    /// @param count    number of photons, < 2³²
+    /// @param cell_of  cell_of(i) is photon i's cell, < cells; it is called twice for each photon
     template <class CellOf>
     CellContents(std::size_t cells, std::size_t count, const CellOf& cell_of) : begin_(cells + 1, 0), photons_(count) {
         for (std::size_t i = 0; i < count; ++i)

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// @file  Curved footprints: a splat bent as the map bends, in pieces that are ellipses each.
+/// @file  Curved footprints: a splat that bends as the map bends, made of pieces that are ellipses.
 ///
-/// A photon about which the map F(u) = F + J u + ½ H u u is known lights the image of a disk, which at a fold is far
-/// from an ellipse. Seven pieces of half the disk's radius, at its middle and half way to its edge, are splatted where
-/// that map takes them, with the tangents that it has there. Their mean is where the one splat lies, shift included; on
-/// a straight map their variance and fourth moments are those of the one biweight, and they reach as far.
+/// Around a photon the map is F(u) = F + J u + ½ H u u. The photon lights the image of a disk under it, and at a fold
+/// this is far from an ellipse. Seven pieces of half the disk's radius, one in its middle and six half way to its edge,
+/// are splatted where the map takes them, each with the map's tangents there. Their mean is the centre of the single
+/// splat, shift included. On a straight map their second and fourth moments are those of a single biweight, and they
+/// reach as far.
 #pragma once
 
 #include "nephroid/footprint/ellipse.hpp"
@@ -19,14 +20,14 @@
 
 namespace nephroid::detail {
 
-/// A part of the unit disk, of half its radius.
+/// A disk of half the radius of the unit disk.
 struct DiskPiece {
-    Plane2 place;
-    double weight;
+    Plane2 centre;
+    double weight; ///< part of the flux
 };
 
-/// With these the second and fourth moments of a biweight are those of seven, and no other weights and radii of such a
-/// hexagon do that. The weights add up to 1 exactly, and are powers of two.
+/// Seven biweights with these centres and weights have the second and fourth moments of a single biweight; no other
+/// weights and radii of a hexagon with a middle do. The weights are powers of two and add up to exactly 1.
 inline constexpr std::array<DiskPiece, 7> disk_pieces = [] {
     constexpr double h = 0.43301270189221932338; // √3/4
     return std::array<DiskPiece, 7>{{{{0, 0}, 0.25},
@@ -38,19 +39,19 @@ inline constexpr std::array<DiskPiece, 7> disk_pieces = [] {
                                      {{0.25, -h}, 0.125}}};
 }();
 
-/// A footprint in pieces.
+/// A deposit in pieces.
 template <Vector3 V, Flux F, std::size_t N>
 struct CurvedDeposit {
     std::array<Deposit<V, F, N>, disk_pieces.size()> all;
-    std::size_t count; ///< of them that are to be splatted: all, or 1, the whole
+    std::size_t count; ///< how many of them to splat: all, or only the first, which is then the whole deposit
 
     [[nodiscard]] std::span<const Deposit<V, F, N>> pieces() const { return {all.data(), count}; }
 };
 
-/// Takes a footprint apart where it bends.
+/// Splits a deposit into pieces if its footprint bends.
 ///
-/// @param deposit        with its final tangents and place
-/// @param second         second derivatives of the map by the halves of those tangents, along the surface
+/// @param deposit        with its final tangents and position
+/// @param second         second derivatives of the map by the half tangents, along the surface
 /// @param second_moment  of the kernel
 template <Vector3 V, Flux F, std::size_t N>
 [[nodiscard]] CurvedDeposit<V, F, N> curved(const Deposit<V, F, N>& deposit, const std::array<Space3, 3>& second,
@@ -65,12 +66,12 @@ template <Vector3 V, Flux F, std::size_t N>
         return result;
 
     result.count = disk_pieces.size();
-    constexpr double of_places = 3.0 / 32; // their variance; with a quarter of its own, a biweight piece makes 1/8
-    const double size = std::sqrt(second_moment / (of_places + 0.25 * second_moment));
+    constexpr double of_centres = 3.0 / 32; // their variance; a quarter of a biweight's own makes up the rest of 1/8
+    const double size = std::sqrt(second_moment / (of_centres + 0.25 * second_moment));
     const auto world = [](const Space3& v) -> V { return make_vector<V>(T(v.x), T(v.y), T(v.z)); };
-    const Space3 mean = (0.5 * square(size) * of_places) * (second[0] + second[2]);
+    const Space3 mean = (0.5 * square(size) * of_centres) * (second[0] + second[2]);
     for (std::size_t i = 0; i < result.count; ++i) {
-        const Plane2 q = size * disk_pieces[i].place;
+        const Plane2 q = size * disk_pieces[i].centre;
         const Space3 by_u = q.x * second[0] + q.y * second[1], by_v = q.x * second[1] + q.y * second[2];
         Deposit<V, F, N>& piece = result.all[i];
         piece = deposit;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Photons of a light sorted into cells of its emission domain, so that each has its neighbours at hand.
+/// @file  Photons of a light, sorted into the cells of a grid over its two emission coordinates.
 #pragma once
 
 #include "nephroid/emission/emission_sample.hpp"
@@ -18,9 +18,9 @@
 
 namespace nephroid::detail {
 
-/// The tangents of a deposit by its emission frame's unit: J.
+/// J: the halves of a deposit's first two tangents, which are its derivatives by the units of the emission frame.
 template <Vector3 V, Flux F, std::size_t N>
-[[nodiscard]] std::array<Space3, 2> unit_tangents(const Deposit<V, F, N>& deposit) {
+[[nodiscard]] std::array<Space3, 2> half_tangents(const Deposit<V, F, N>& deposit) {
     using t = vector_traits<V>;
     const auto half = [](const V& v) {
         return Space3{0.5 * double(t::x(v)), 0.5 * double(t::y(v)), 0.5 * double(t::z(v))};
@@ -28,34 +28,35 @@ template <Vector3 V, Flux F, std::size_t N>
     return {half(deposit.d_position[0]), half(deposit.d_position[1])};
 }
 
-/// What a photon tells of the map from its light to where it landed, in double precision whatever the renderer's.
+/// A sample of the map from a light to the surfaces: one photon, in double precision whatever the renderer's scalar.
 struct PathSample {
     EmissionSample sample;
     EmissionFrame frame;
     std::uint32_t signature = 0;      ///< of its path (PathSignature)
-    bool has_landed = false;          ///< else it ended otherwise
+    bool has_landed = false;          ///< whether it reached a surface that receives it
     std::array<Space3, 2> tangents{}; ///< J, if it has landed
 };
 
-/// A photon from its light to where it is to be splatted.
+/// A photon's sample of the map, and the deposit to splat.
 template <Vector3 V, Flux F, std::size_t N>
 struct TracedPhoton : PathSample {
-    std::optional<Deposit<V, F, N>> deposit; ///< nothing if it ended otherwise
+    std::optional<Deposit<V, F, N>> deposit; ///< nothing if it did not land
 
     TracedPhoton() = default;
     TracedPhoton(const EmissionSample& drawn, const EmissionFrame& emitted, std::uint32_t path,
                  const std::optional<Deposit<V, F, N>>& landed)
         : PathSample{drawn, emitted, path, landed.has_value(), {}}, deposit(landed) {
         if (landed)
-            tangents = unit_tangents(*landed);
+            tangents = half_tangents(*landed);
     }
 };
 
-/// Some photons of a light, whatever they carry besides: what is made of them is compiled once. They must outlive it.
+/// References to some photons of a light, without their deposits, so that fits are compiled once for all renderers'
+/// types. The photons must outlive this object.
 class PathSamples {
 public:
     PathSamples() = default;
-    /// @param photons  a random-access range of TracedPhoton, or of what else is a PathSample
+    /// @param photons  a random-access range of PathSample or of types derived from it
     template <class Photons>
         requires(!std::same_as<Photons, PathSamples>)
     explicit PathSamples(const Photons& photons) {
@@ -67,8 +68,8 @@ public:
     [[nodiscard]] std::size_t size() const { return samples_.size(); }
     [[nodiscard]] const PathSample& operator[](std::size_t i) const { return *samples_[i]; }
 
-    /// Where the first of them were emitted.
-    [[nodiscard]] std::vector<std::array<double, 2>> places(std::size_t count) const {
+    /// The emission coordinates of the first `count` photons.
+    [[nodiscard]] std::vector<std::array<double, 2>> coordinates(std::size_t count) const {
         std::vector<std::array<double, 2>> result;
         result.reserve(count);
         for (std::size_t i = 0; i < count; ++i)
@@ -80,15 +81,15 @@ private:
     std::vector<const PathSample*> samples_;
 };
 
-/// A grid over the square of samples that a light draws from, and the photons in each cell.
+/// A grid over the unit square of emission coordinates, and the photons in each cell.
 class EmissionCells {
 public:
     static constexpr double photons_per_cell = 16;
 
-    /// @param samples  in the order of the photons
-    /// @param aspect   length of the domain along the first sample over that along the second
-    /// @param repeats  whether opposite borders are neighbours
-    /// @param per_cell  photons in a cell, averaged over the whole square, > 0
+    /// @param samples   emission coordinates of the photons, in their order
+    /// @param aspect    length of the domain along the first coordinate over that along the second
+    /// @param repeats   whether opposite borders of the domain are neighbours
+    /// @param per_cell  photons in a cell, on average over the whole square, > 0
     EmissionCells(std::span<const std::array<double, 2>> samples, double aspect, bool repeats,
                   double per_cell = photons_per_cell)
         : repeats_(repeats) {
@@ -109,18 +110,18 @@ public:
         const auto index = [](double u, std::size_t n) { return (std::min)(n - 1, std::size_t(u * double(n))); };
         return index(sample[1], rows_) * columns_ + index(sample[0], columns_);
     }
-    /// The sample in the middle of a cell.
+    /// The emission coordinates of a cell's middle.
     [[nodiscard]] std::array<double, 2> middle(std::size_t cell) const {
         return {(double(cell % columns_) + 0.5) / double(columns_), (double(cell / columns_) + 0.5) / double(rows_)};
     }
-    /// The cell that lies `dx` columns and `dy` rows away, -1 to 1; nothing beyond the domain's border.
+    /// The cell `dx` columns and `dy` rows away, each −1 to 1; nothing beyond the domain's border.
     [[nodiscard]] std::optional<std::size_t> neighbour(std::size_t cell, int dx, int dy) const {
         const auto column = step(cell % columns_, dx, columns_), row = step(cell / columns_, dy, rows_);
         if (!column || !row)
             return std::nullopt;
         return *row * columns_ + *column;
     }
-    /// From one sample to another, the shorter way where the domain repeats.
+    /// The step from one point of the domain to another; the shortest one where the domain repeats.
     [[nodiscard]] Plane2 step_between(const std::array<double, 2>& from, const std::array<double, 2>& to) const {
         const auto shorter = [this](double d) { return repeats_ ? d - std::round(d) : d; };
         return {shorter(to[0] - from[0]), shorter(to[1] - from[1])};
@@ -141,8 +142,9 @@ private:
     CellContents contents_;
 };
 
-/// How displacements follow from steps between samples, δ = M Δ, fitted to photons about one of them.
-class SampleMetric {
+/// Fits the matrix M in δ = M Δ to photons: Δ is a step between emission coordinates, δ the displacement in a
+/// frame.
+class StepFit {
 public:
     void add(Plane2 step, Plane2 displacement) {
         steps_ += Symmetric2::outer(step);
@@ -150,7 +152,7 @@ public:
         by_y_ = by_y_ + step.y * displacement;
     }
 
-    /// Nothing if the steps do not span the plane.
+    /// @return  nothing if the steps do not span the plane
     [[nodiscard]] std::optional<PlaneMatrix> solve() const {
         const double d = steps_.determinant();
         if (!(d > 1e-6 * steps_.trace() * steps_.trace()))

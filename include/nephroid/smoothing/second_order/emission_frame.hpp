@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where photons lie from one another in their light's domain, in the coordinates of their own tangents.
+/// @file  The frame that a photon's tangents span in its light's domain, and other photons' coordinates in it.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"
@@ -9,16 +9,16 @@
 
 namespace nephroid::detail {
 
-/// From one photon of an area light to another: how far apart in place and in direction, each in units of the half
-/// tangents' parts.
+/// The step from one photon of an area light to another, in position and in direction. The units are those parts of the
+/// half tangents.
 struct AreaStep {
-    Plane2 place, direction;
+    Plane2 position, direction;
 };
 
-/// A photon at emission as the origin of coordinates: one unit along an axis is half of the length of that tangent,
+/// A coordinate system in the domain with its origin at a photon. One unit along an axis is half of that tangent,
 /// u0 = s sqrt(domain / (π N)), so that a photon stands for π square units at s = 1.
 ///
-/// A light may vary a photon's position (directional light), its direction (point light) or both along a tangent.
+/// Along a tangent a light may change the photon's position (directional light), its direction (point light) or both.
 class EmissionFrame {
 public:
     EmissionFrame() = default;
@@ -36,21 +36,21 @@ public:
         return gram_.determinant() > 1e-6 * gram_.xx * gram_.yy && std::isfinite(gram_.trace());
     }
 
-    /// Where another photon was emitted.
-    [[nodiscard]] Plane2 to(const EmissionFrame& other) const {
+    /// The coordinates of another photon.
+    [[nodiscard]] Plane2 displacement_to(const EmissionFrame& other) const {
         Ray difference;
         for (std::size_t i = 0; i < difference.size(); ++i)
             difference[i] = other.ray_[i] - ray_[i];
         return 2 * solve({dot(axes_[0], difference), dot(axes_[1], difference)});
     }
 
-    /// The other's axes in these: a displacement of coordinates v there is `axes_of(other)(v)` here.
+    /// The other frame's axes in this frame: a displacement v in the other frame is `axes_of(other)(v)` in this one.
     [[nodiscard]] PlaneMatrix axes_of(const EmissionFrame& other) const {
         return {solve({dot(axes_[0], other.axes_[0]), dot(axes_[1], other.axes_[0])}),
                 solve({dot(axes_[0], other.axes_[1]), dot(axes_[1], other.axes_[1])})};
     }
 
-    /// Whether place and direction vary along both tangents, each as an area light's do: four coordinates in all.
+    /// Whether position and direction both change along both tangents, as an area light's do: four coordinates in all.
     [[nodiscard]] bool is_of_area() const {
         const auto spans = [this](std::size_t part) {
             const Symmetric2 gram = gram_of(part);
@@ -59,7 +59,7 @@ public:
         return spans(0) && spans(3);
     }
 
-    /// Where another photon was emitted, by place and by direction; `is_of_area` must hold.
+    /// The step to another photon of an area light; `is_of_area` must hold.
     [[nodiscard]] AreaStep step_to(const EmissionFrame& other) const {
         const auto part = [&](std::size_t first) {
             Plane2 along;
@@ -70,9 +70,9 @@ public:
         return {part(0), part(3)};
     }
 
-    /// By how much the other's tangents are turned about their rays against these: a vector of coordinates v there is
-    /// `turn_of(other)(v)` here. Of directions alone: `is_of_area` must hold.
-    [[nodiscard]] PlaneMatrix turn_of(const EmissionFrame& other) const {
+    /// The rotation of the other photon's tangents about its ray against these: a vector v in the other frame is
+    /// `rotation_of(other)(v)` in this one. It is found from directions alone; `is_of_area` must hold.
+    [[nodiscard]] PlaneMatrix rotation_of(const EmissionFrame& other) const {
         const auto along = [&](std::size_t axis) {
             Plane2 v;
             for (std::size_t i = 3; i < 6; ++i)
@@ -107,7 +107,7 @@ private:
     }
     [[nodiscard]] Plane2 solve(Plane2 v) const { return solve(gram_, v); }
 
-    /// Of the axes' parts: 0 the position's, 3 the direction's.
+    /// The Gram matrix of the axes' positions (first = 0) or directions (first = 3).
     [[nodiscard]] Symmetric2 gram_of(std::size_t first) const {
         Symmetric2 gram;
         for (std::size_t i = first; i < first + 3; ++i)

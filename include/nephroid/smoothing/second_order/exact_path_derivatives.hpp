@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// @file  Derivatives of the map from light to surface, computed along one photon's path with dual numbers.
 ///
-/// `PathFit` finds them from neighbouring photons and asks nothing of the renderer. Where the renderer's scene is a
-/// template over its scalar they can be had exactly instead, to check the fit, or for photons without neighbours: the
-/// photon's own walk on numbers that know their derivatives by where the photon was emitted. Tangents are first
-/// derivatives, so their derivatives are the second ones.
+/// `PathFit` estimates these derivatives from neighbouring photons and needs nothing from the renderer. If the
+/// renderer's scene is a template over its scalar, they can be computed exactly instead, to check the fit or for
+/// photons without neighbours. The photon's walk then runs on dual numbers, which carry derivatives by the emission
+/// coordinates. Tangents are first derivatives, so their derivatives are the second ones.
 ///
-/// Splatting does not ask for them. In the shift in place of the fitted ones they changed the error of waves and of the
-/// ring by less than 8% from 10,000 photons on, at several times the tracing; at 2,500 it was from 18% less to 38%
-/// more.
+/// Splatting does not use them. When the shift used them in place of the fitted ones, the error of waves and of the
+/// ring changed by less than 8% for 10,000 photons and more, at several times the cost of tracing; for 2,500 photons it
+/// was between 18% less and 38% more.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"
@@ -25,7 +25,7 @@
 
 namespace nephroid {
 
-/// A path that was followed to its end, and how that end moves with the photon's emission coordinates.
+/// The end of a photon's path, and its derivatives by the photon's emission coordinates.
 struct ExactPath {
     detail::Space3 position; ///< where the photon landed
     detail::PathDerivatives
@@ -45,7 +45,7 @@ inline constexpr bool is_nested_dual = false;
 template <class T>
 inline constexpr bool is_nested_dual<Dual<Dual<T, 2>, 2>> = true;
 
-/// An emission coordinate about 0: what all derivatives are by.
+/// An emission coordinate at 0, as the parameter of all derivatives.
 template <class T>
 [[nodiscard]] T emission_coordinate(std::size_t axis) {
     if constexpr (is_nested_dual<T>) {
@@ -56,7 +56,7 @@ template <class T>
     }
 }
 
-/// A vector without derivatives in the scalar of another.
+/// Converts a vector to another vector type; its derivatives are 0.
 template <Vector3 D, Vector3 V>
 [[nodiscard]] D constant_vector(const V& v) {
     using t = vector_traits<V>;
@@ -78,12 +78,12 @@ template <Flux G, Flux F>
         return flux;
 }
 
-/// A photon and all those next to it at emission, as one: each coordinate of its EmissionFrame is a parameter.
+/// A photon as a function of the two coordinates δ of its EmissionFrame, which are parameters of the dual numbers.
 ///
-/// Where it starts, x + Σ δ ½ ∂x, and its direction, Σ δ ½ ∂ω and what is missing to unit length along ω.
+/// Its position is x + Σ δ ½ ∂x. Its direction is Σ δ ½ ∂ω plus as much of ω as makes the length 1.
 template <Vector3 D, Flux G, Vector3 V, Flux F, std::size_t N>
     requires(N >= 2)
-[[nodiscard]] Photon<D, G, 2> with_neighbours(const Photon<V, F, N>& photon) {
+[[nodiscard]] Photon<D, G, 2> parametrised(const Photon<V, F, N>& photon) {
     using T = scalar_t<D>;
     const D ahead = normalize(constant_vector<D>(photon.direction));
     D position = constant_vector<D>(photon.position), aside = zero_vector<D>();
@@ -102,34 +102,35 @@ template <Vector3 D, Flux G, Vector3 V, Flux F, std::size_t N>
     return {position, aside + along * ahead, constant_flux<G>(photon.flux), {tangent(0), tangent(1)}};
 }
 
-/// A vector's derivative: `part` picks it from each component.
+/// A part of a vector, such as a derivative; `part` takes it from each component.
 template <Vector3 D, class Part>
-[[nodiscard]] Space3 picked(const D& v, const Part& part) {
+[[nodiscard]] Space3 part_of(const D& v, const Part& part) {
     using t = vector_traits<D>;
     return {double(part(t::x(v))), double(part(t::y(v))), double(part(t::z(v)))};
 }
 
 } // namespace detail
 
-/// Follows a photon and computes how the place where it lands changes with where it was emitted.
+/// Follows a photon and differentiates its landing point by its emission coordinates.
 ///
-/// The scene computes in D's scalar, Dual<T, 2>: positions, distances, normals and curvatures of hits have to carry the
-/// derivatives of what they were computed from. Closed formulas do so by themselves; what is found by iteration or
-/// looked up needs one more step of Newton's method in D's scalar: x − f(x)/f'(x) has the right derivatives once x is
-/// right. Fluxes (the scene's weights) must take derivatives as well. The light stays as it is. A scalar of
-/// Dual<Dual<T, 2>, 2> brings the third derivatives too.
+/// The scene must compute in D's scalar, Dual<T, 2>, and the positions, distances, normals and curvatures of its hits
+/// must carry derivatives. Closed formulas do so by themselves. A result of iteration or of a table needs one more step
+/// of Newton's method in D's scalar: x − f(x)/f'(x) has the right derivatives once x is right. Fluxes (the scene's
+/// weights) must be able to carry derivatives as well. The light stays as it is. With the scalar Dual<Dual<T, 2>, 2>
+/// the third derivatives are computed too.
 ///
 /// ```cpp
 /// nephroid::Sampler sampler(sequence, i); // photon i of the pass
 /// const auto photon = light.emit(sampler, nephroid::Spread<float>{photons, 1});
 /// const MyScene<nephroid::Dual<double, 2>> differentiable(...);
-/// const auto path = nephroid::exact_path_derivatives<MyVec3<nephroid::Dual<double, 2>>>(differentiable, photon,
-/// sampler); if (path) // it landed: path->map.second is F_uu, F_uv, F_vv
+/// using DualVec3 = MyVec3<nephroid::Dual<double, 2>>;
+/// const auto path = nephroid::exact_path_derivatives<DualVec3>(differentiable, photon, sampler);
+/// if (path) // it landed: path->map.second is F_uu, F_uv, F_vv
 /// ```
 ///
 /// @tparam D       the scene's vector
-/// @param photon   as emitted, its first two tangents regular; one unit of the coordinates is half of a tangent
-/// @param sampler  as it was after the photon's emission
+/// @param photon   as emitted, with linearly independent first two tangents; a unit of a coordinate is half a tangent
+/// @param sampler  in its state after the photon's emission
 /// @return  nothing if the photon does not land, as in the plain walk
 /// Cost: about three times the plain walk's arithmetic (seven times for third derivatives).
 template <Vector3 D, class S, Vector3 V, Flux F, std::size_t N, class Sampler>
@@ -143,13 +144,13 @@ template <Vector3 D, class S, Vector3 V, Flux F, std::size_t N, class Sampler>
         decltype(scene.scatter(std::declval<const hit_t<S, D>&>(), std::declval<const D&>(), sampler).weight)>;
     Statistics account;
     PathSignature signature;
-    const auto deposit = walk(scene, detail::with_neighbours<D, G>(photon), sampler, limits, account, signature);
+    const auto deposit = walk(scene, detail::parametrised<D, G>(photon), sampler, limits, account, signature);
     if (!deposit)
         return std::nullopt;
 
-    ExactPath path{detail::picked(deposit->position, [](const T& x) { return x; }), {}, signature.value()};
+    ExactPath path{detail::part_of(deposit->position, [](const T& x) { return x; }), {}, signature.value()};
     const auto derivative = [&](std::size_t tangent, const auto& part) {
-        return 0.5 * detail::picked(deposit->d_position[tangent], part);
+        return 0.5 * detail::part_of(deposit->d_position[tangent], part);
     };
     const auto by = [](std::size_t axis) { return [axis](const T& x) { return x.derivative(axis); }; };
     path.map.first = {derivative(0, [](const T& x) { return x; }), derivative(1, [](const T& x) { return x; })};

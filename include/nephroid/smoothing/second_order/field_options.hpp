@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What chooses the footprints of one light's photons, and what is then said of one of them.
+/// @file  The options of a field of footprints, and the field's value for one photon.
 #pragma once
 
 #include "nephroid/smoothing/policies.hpp"
@@ -11,21 +11,21 @@
 
 namespace nephroid::detail {
 
-/// What chooses the footprints.
+/// How the footprints of one light's photons are chosen.
 struct FieldOptions {
-    std::optional<double> smoothing{}; ///< s for all photons; nothing: chosen for each by `smoothing_tensor`
+    std::optional<double> smoothing{}; ///< s for all photons; if empty, `shape_tensor` chooses it for each
     bool stratified = false;           ///< whether the photons come from a stratified sequence
-    bool repeats = false;              ///< the scene repeats over the light's domain
-    double scale = 1;                  ///< of S: the biweight's second moment over the kernel's own
-    double photons = 0;                ///< emitted into this domain in all; those that the field is made from are fewer
+    bool repeats = false;              ///< whether the scene repeats over the light's domain
+    double scale = 1;                  ///< factor of S: the biweight's second moment over the kernel's own
+    double photons = 0;                ///< emitted into this domain by the whole pass, not only by the pilot
     SmoothingBounds bounds{};
 };
 
-/// What the field says about one photon, in its own emission frame.
+/// The value of a field for one photon, in its own emission frame.
 struct FieldSample {
-    Symmetric2 shape;             ///< S
+    Symmetric2 shape;             ///< S, the shape of the footprint
     Plane2 divergence;            ///< ∂_a S_ab
-    std::array<Space3, 3> second; ///< H
+    std::array<Space3, 3> second; ///< H, the second derivatives of the map
 };
 
 } // namespace nephroid::detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Second and third derivatives of the map from light to surface, fitted to photons and their tangents.
+/// @file  Fits the second and third derivatives of the map from light to surface to photons and their tangents.
 #pragma once
 
 #include "nephroid/vector/least_squares.hpp"
@@ -26,14 +26,14 @@ struct Space3 {
     [[nodiscard]] friend double inner(const Space3& a, const Space3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
 
-/// Derivatives of the landing point F by the two emission coordinates (EmissionFrame), about some point of the domain.
+/// Derivatives of the landing point F by the two coordinates of an EmissionFrame, at a point of the domain.
 struct PathDerivatives {
     std::array<Space3, 2> first;  ///< J: F_u, F_v
     std::array<Space3, 3> second; ///< H: F_uu, F_uv, F_vv
-    std::array<Space3, 4> third;  ///< T: F_uuu, F_uuv, F_uvv, F_vvv; 0 where there were too few photons for them
+    std::array<Space3, 4> third;  ///< T: F_uuu, F_uuv, F_uvv, F_vvv; 0 where too few photons determined them
 };
 
-/// J at a displacement from where the derivatives are.
+/// J at a displacement from the point of the derivatives.
 [[nodiscard]] inline std::array<Space3, 2> tangents_at(const PathDerivatives& map, Plane2 at) {
     const double xx = 0.5 * at.x * at.x, xy = at.x * at.y, yy = 0.5 * at.y * at.y;
     const auto& [h_uu, h_uv, h_vv] = map.second;
@@ -42,7 +42,9 @@ struct PathDerivatives {
             map.first[1] + (at.x * h_uv + at.y * h_vv) + (xx * t_uuv + (xy * t_uvv + yy * t_vvv))};
 }
 
-/// Second derivatives in other axes: `axes` takes the other frame's coordinates to those that `second` is by.
+/// Second derivatives by the coordinates of another frame.
+///
+/// @param axes  takes coordinates in the other frame to those of `second`
 [[nodiscard]] inline std::array<Space3, 3> turned(const std::array<Space3, 3>& second, const PlaneMatrix& axes) {
     const auto along = [&](Plane2 a, Plane2 b) {
         return (a.x * b.x) * second[0] + ((a.x * b.y + a.y * b.x) * second[1] + (a.y * b.y) * second[2]);
@@ -52,12 +54,12 @@ struct PathDerivatives {
 
 /// A weighted least-squares fit of J(δ) = J + H δ + ½ T δ δ to the tangents of photons at displacements δ.
 ///
-/// Their landing points are not used: tangents alone do not mind where a periodic floor wraps.
+/// Landing points are not used, because they jump where a periodic floor wraps around and tangents do not.
 class PathFit {
 public:
-    /// @param at       displacement of the photon from where the derivatives are wanted
-    /// @param tangents  J there, in the axes of the fit
-    /// @param weight   > 0
+    /// @param at        displacement of the photon from the point at which the derivatives are wanted
+    /// @param tangents  the photon's J, in the axes of the fit
+    /// @param weight    > 0
     void add(Plane2 at, const std::array<Space3, 2>& tangents, double weight) {
         const double xx = 0.5 * at.x * at.x, xy = at.x * at.y, yy = 0.5 * at.y * at.y;
         equations_.add({1, 0, at.x, at.y, 0, xx, xy, yy, 0}, tangents[0], weight);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  By how much a map bends that no smooth one fits: facets of a mesh, ripples smaller than a cell of photons.
+/// @file  Measures the bending of a map that no smooth fit explains: facets of a mesh, ripples smaller than a cell.
 #pragma once
 
 #include "nephroid/smoothing/second_order/bending.hpp"
@@ -9,23 +9,23 @@
 
 namespace nephroid::detail {
 
-/// A photon's J, and what of it a map does not explain.
+/// A photon's J, and its difference from the fitted map's.
 struct TangentResidual {
-    std::array<double, 4> at; ///< emission coordinates, in u0; those that a light does not have are 0
-    std::array<Space3, 2> tangents, unexplained;
+    std::array<double, 4> at; ///< emission coordinates, in u0; 0 for those that a light does not have
+    std::array<Space3, 2> tangents, residual;
 };
 
-/// The mean over the photons of |J⁻¹ΔJ|²/|δ|², per u0²: by what the nearest photon's J differs that the map
-/// does not explain, over how far away it is. Of a smooth map next to nothing.
+/// The mean over the photons of |J⁻¹ΔJ|²/|δ|², per u0². ΔJ is the difference between the residuals of a photon
+/// and of its nearest neighbour, and δ the distance between the two. It is almost 0 for a smooth map.
 ///
-/// A pair counts for 0.15 at most: where a map is singular (the rim of a ball) all photons differ, and small footprints
-/// would only show them.
+/// Each pair counts for at most 0.15. Where a map is singular (the rim of a ball) all photons differ, and smaller
+/// footprints would only show single photons.
 ///
 /// @return  0 for fewer than two photons
 [[nodiscard]] inline double roughness(std::span<const TangentResidual> photons) {
     if (photons.size() < 2)
         return 0;
-    constexpr double most = 0.15;
+    constexpr double limit = 0.15;
     const auto distance2_between = [](const TangentResidual& a, const TangentResidual& b) {
         double sum = 0;
         for (std::size_t axis = 0; axis < 4; ++axis)
@@ -48,10 +48,9 @@ struct TangentResidual {
             }
         if (nearest == nullptr || !(distance2 > 0))
             continue;
-        const std::array<Space3, 2> jump{nearest->unexplained[0] - a.unexplained[0],
-                                         nearest->unexplained[1] - a.unexplained[1]};
-        // By the wider of the two: what is folded flat would make any jump a large one.
-        sum += (std::min)(most, (std::min)(size2(a.tangents, jump), size2(nearest->tangents, jump)) / distance2);
+        const std::array<Space3, 2> jump{nearest->residual[0] - a.residual[0], nearest->residual[1] - a.residual[1]};
+        // The smaller of the two values counts: relative to a collapsed footprint, any jump is large.
+        sum += (std::min)(limit, (std::min)(size2(a.tangents, jump), size2(nearest->tangents, jump)) / distance2);
     }
     return sum / double(photons.size());
 }

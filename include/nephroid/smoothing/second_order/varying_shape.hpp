@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The shape of footprints about a photon: there, and how it changes with where photons are emitted.
+/// @file  The shape of footprints at a photon, with its derivatives by the emission coordinates.
 #pragma once
 
 #include "nephroid/vector/plane.hpp"
@@ -19,36 +19,39 @@ struct VaryingShape {
         along_v += weight * o.along_v;
     }
 
-    /// By other axes, of which `axes` makes these; u and v stay what they are.
+    /// The same tensors in other axes. The derivatives are still by the same u and v.
+    ///
+    /// @param axes  takes vectors in these axes to the other ones
     [[nodiscard]] VaryingShape turned(const PlaneMatrix& axes) const {
         return {congruent(axes, value), congruent(axes, along_u), congruent(axes, along_v)};
     }
 
-    /// Reduces the radius ρ along a unit direction, ρ² = n·S n, to less than `most`, and leaves it across as it is.
+    /// Reduces the radius ρ along a unit direction n, ρ² = n·S n, to less than a limit m, and keeps it across.
     ///
-    /// ρ becomes (ρ⁻⁴ + most⁻⁴)^(−1/4): where the lesser of the two had a bend, the shift would have a
-    /// step, and the light an edge. A `most` of 2.9 ρ and more, which would shorten it by 0.4%, changes nothing.
-    /// @param slope  of `most`, by u and v
-    void bound_along(Plane2 n, double most, Plane2 slope) {
+    /// ρ becomes (ρ⁻⁴ + m⁻⁴)^(−1/4), which is smooth in both. With the lesser of the two instead, the shift
+    /// would jump where they are equal, and the light would have an edge there. Limits from 2.9 ρ on, which would
+    /// shorten ρ by 0.4% or less, change nothing.
+    /// @param slope  derivatives of the limit by u and v
+    void bound_along(Plane2 n, double limit, Plane2 slope) {
         const Plane2 s_n = value(n);
-        const double radius2 = inner(n, s_n), most2 = square(most);
-        if (!(most2 < 8 * radius2))
+        const double radius2 = inner(n, s_n), limit2 = square(limit);
+        if (!(limit2 < 8 * radius2))
             return;
-        // S − (1 − kept)/ρ² · S n (S n)ᵀ, and what that becomes where S and `most` change.
-        const double sum4 = square(radius2) + square(most2), root = std::sqrt(sum4), kept = most2 / root;
-        const double by = (1 - kept) / radius2;
-        const Symmetric2 cut = Symmetric2::outer(s_n);
-        const auto bound = [&](Symmetric2& along, double d_most) {
+        // S becomes S − (1 − kept)/ρ² · S n (S n)ᵀ; its derivatives follow by the product rule.
+        const double sum4 = square(radius2) + square(limit2), root = std::sqrt(sum4), kept = limit2 / root;
+        const double factor = (1 - kept) / radius2;
+        const Symmetric2 outer = Symmetric2::outer(s_n);
+        const auto bound = [&](Symmetric2& along, double d_limit) {
             const Plane2 d_s_n = along(n);
             const double d_radius2 = inner(n, d_s_n);
-            const Symmetric2 d_cut{2 * s_n.x * d_s_n.x, s_n.x * d_s_n.y + s_n.y * d_s_n.x, 2 * s_n.y * d_s_n.y};
-            const double d_kept = radius2 * (2 * most * d_most * radius2 - most2 * d_radius2) / (sum4 * root);
-            along += -by * d_cut;
-            along += ((d_kept + by * d_radius2) / radius2) * cut;
+            const Symmetric2 d_outer{2 * s_n.x * d_s_n.x, s_n.x * d_s_n.y + s_n.y * d_s_n.x, 2 * s_n.y * d_s_n.y};
+            const double d_kept = radius2 * (2 * limit * d_limit * radius2 - limit2 * d_radius2) / (sum4 * root);
+            along += -factor * d_outer;
+            along += ((d_kept + factor * d_radius2) / radius2) * outer;
         };
         bound(along_u, slope.x);
         bound(along_v, slope.y);
-        value += -by * cut;
+        value += -factor * outer;
     }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/execution/thread_executor.hpp"
-#include "nephroid/smoothing/second_order/sheet_field.hpp"
+#include "nephroid/smoothing/second_order/group_field.hpp"
 
-#include "smoothing/second_order/sheets.hpp"
+#include "smoothing/second_order/fields.hpp"
 #include "support/space.hpp"
 
 #include <doctest/doctest.h>
@@ -14,7 +14,7 @@ using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 // The radius is the largest there is, 32: borders are felt from 2.9 times that on, and half of the domain is 167 units.
-TEST_CASE("sheet field: a straight map has round footprints and no shift away from its borders") {
+TEST_CASE("group field: a straight map has round footprints and no shift away from its borders") {
     constexpr double wide = 189, photons = wide * wide;
     const Field field = field_of(photons_of(affine, lattice(std::size_t(wide), std::size_t(wide))),
                                  {.stratified = true, .photons = photons});
@@ -34,7 +34,7 @@ TEST_CASE("sheet field: a straight map has round footprints and no shift away fr
 
 // Between the middles of cells shapes are bilinear, beside borders smooth: a difference over a fiftieth of a lattice
 // step is off by its square.
-TEST_CASE("sheet field: the divergence is that of the shapes around") {
+TEST_CASE("group field: the divergence is that of the shapes") {
     const Field field = field_of(curved);
     const double u0 = unit_of(all), h = 0.01 / side;
     std::size_t varying = 0;
@@ -59,7 +59,7 @@ TEST_CASE("sheet field: the divergence is that of the shapes around") {
 
 // A light may choose any orthogonal pair of tangents for each photon: what comes out for the surface is the same. The
 // fit and the blend are made in the axes of one photon of each cell, so only rounding differs.
-TEST_CASE("sheet field: footprints do not depend on how the light turns its tangents") {
+TEST_CASE("group field: rotating a photon's tangents makes no difference") {
     const auto samples = halton(2000);
     const auto plain = photons_of(curved, samples);
     std::vector<MapPhoton> turned;
@@ -76,7 +76,7 @@ TEST_CASE("sheet field: footprints do not depend on how the light turns its tang
             continue;
         ++found;
         const auto on_floor = [](const MapPhoton& photon, const FieldSample& sample) {
-            const auto j = unit_tangents(*photon.deposit);
+            const auto j = half_tangents(*photon.deposit);
             return congruent({{j[0].x, j[0].y}, {j[1].x, j[1].y}}, sample.shape);
         };
         const Symmetric2 p = on_floor(plain[i], *a), q = on_floor(turned[i], *b);
@@ -86,7 +86,7 @@ TEST_CASE("sheet field: footprints do not depend on how the light turns its tang
         };
         CHECK(distance(bend(*a), bend(*b)) <= 1e-8 * std::sqrt(inner(bend(*a), bend(*a))) + 1e-14);
         const auto drift = [](const MapPhoton& photon, const FieldSample& s) {
-            const auto j = unit_tangents(*photon.deposit);
+            const auto j = half_tangents(*photon.deposit);
             return s.divergence.x * j[0] + s.divergence.y * j[1];
         };
         CHECK(distance(drift(plain[i], *a), drift(turned[i], *b)) <= 1e-8 * std::sqrt(p.trace()));
@@ -94,7 +94,7 @@ TEST_CASE("sheet field: footprints do not depend on how the light turns its tang
     CHECK(found > 250);
 }
 
-TEST_CASE("sheet field: photons that are all at one place or all lost give nothing") {
+TEST_CASE("group field: photons that are all at one point or all lost make no field") {
     const auto one_place = photons_of(affine, Samples(100, {0.5, 0.5}));
     const Field field = field_of(one_place, {.stratified = true, .photons = 100});
     CHECK(!field.at({0.5, 0.5}, one_place[0].frame, 1));
@@ -107,9 +107,9 @@ TEST_CASE("sheet field: photons that are all at one place or all lost give nothi
         CHECK(!none.at(photon.sample.at, photon.frame, photon.signature));
 }
 
-TEST_CASE("sheet field: any number of threads makes the same field bit for bit") {
+TEST_CASE("group field: any number of threads makes the same field bit for bit") {
     const auto samples = halton(20000);
-    const auto photons = photons_of(TwoSheets{0.3}, samples);
+    const auto photons = photons_of(TwoGroups{0.3}, samples);
     const auto curved_photons = photons_of(curved, samples);
     for (const auto* all_photons : {&photons, &curved_photons}) {
         const FieldOptions options{.stratified = true, .photons = 20000};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "nephroid/smoothing/second_order/emission_sheets.hpp"
+#include "nephroid/smoothing/second_order/path_groups.hpp"
 
 #include "nephroid/execution/thread_executor.hpp"
 
@@ -25,7 +25,7 @@ const TaskRunner one_by_one = [](std::size_t count, const std::function<void(std
         task(i);
 };
 
-[[nodiscard]] EmissionSheets sheets_of(const std::vector<MapPhoton>& photons, bool repeats = false) {
+[[nodiscard]] PathGroups groups_of(const std::vector<MapPhoton>& photons, bool repeats = false) {
     return {PathSamples(photons), repeats, one_by_one};
 }
 
@@ -43,16 +43,16 @@ template <class Path>
 
 } // namespace
 
-TEST_CASE("emission sheets: each photon that landed is on the sheet of its path and lost ones are on none") {
+TEST_CASE("path groups: each photon that landed is in the group of its path and lost ones are in none") {
     const auto photons = photons_on([](double u, double v) { return u + v > 1.5 ? 0u : u < v ? 9u : 4u; });
-    const EmissionSheets sheets = sheets_of(photons);
-    REQUIRE(sheets.sheets().size() == 2);
-    CHECK(sheets.sheets()[0].signature == 4);
-    CHECK(sheets.sheets()[1].signature == 9);
+    const PathGroups groups = groups_of(photons);
+    REQUIRE(groups.groups().size() == 2);
+    CHECK(groups.groups()[0].signature == 4);
+    CHECK(groups.groups()[1].signature == 9);
     std::size_t landed = 0;
-    for (const EmissionSheet& sheet : sheets.sheets())
-        for (const std::uint32_t i : sheet.photons) {
-            CHECK(photons[i].signature == sheet.signature);
+    for (const PathGroup& group : groups.groups())
+        for (const std::uint32_t i : group.photons) {
+            CHECK(photons[i].signature == group.signature);
             ++landed;
         }
     for (const MapPhoton& photon : photons)
@@ -60,11 +60,11 @@ TEST_CASE("emission sheets: each photon that landed is on the sheet of its path 
     CHECK(landed == photons.size());
 }
 
-TEST_CASE("emission sheets: sheets side by side have all the photons of their own part") {
+TEST_CASE("path groups: groups side by side have a share of 1 and a border") {
     const auto photons = photons_on([](double u, double v) { return std::hypot(u - 0.4, v - 0.5) < 0.3 ? 1u : 2u; });
-    const EmissionSheets sheets = sheets_of(photons);
-    for (const EmissionSheet& sheet : sheets.sheets())
-        CHECK(sheet.share == 1);
+    const PathGroups groups = groups_of(photons);
+    for (const PathGroup& group : groups.groups())
+        CHECK(group.share == 1);
     // 512 cells: a photon within half a cell of the border has it in its own cell or not; further than a cell's
     // diagonal it cannot.
     const double cell = 1 / std::sqrt(512.0);
@@ -73,51 +73,51 @@ TEST_CASE("emission sheets: sheets side by side have all the photons of their ow
         const auto& at = photons[i].sample.at;
         const double away = std::abs(std::hypot(at[0] - 0.4, at[1] - 0.5) - 0.3);
         if (away > 1.5 * cell)
-            CHECK(!sheets.is_next_to_border(i));
+            CHECK(!groups.is_next_to_border(i));
         if (away < 0.2 * cell) {
             ++near;
-            flagged += sheets.is_next_to_border(i);
+            flagged += groups.is_next_to_border(i);
         }
     }
     CHECK(near > 100);
     CHECK(double(flagged) > 0.8 * double(near)); // others lie beside a cell's own border
 }
 
-TEST_CASE("emission sheets: what chance sends elsewhere makes a share and no border") {
+TEST_CASE("path groups: groups that overlap by chance have shares and no border") {
     for (const double share : {0.5, 0.1, 0.02}) {
         Draws draw(7);
         const auto photons = photons_on([&](double, double) { return draw.in(0, 1) < share ? 2u : 1u; });
-        const EmissionSheets sheets = sheets_of(photons);
-        REQUIRE(sheets.sheets().size() == 2);
+        const PathGroups groups = groups_of(photons);
+        REQUIRE(groups.groups().size() == 2);
         // A median over windows of 144 photons, whose own scatter it half follows.
         const double tolerance = 4 * std::sqrt(share * (1 - share) / 144) / 2;
-        CHECK(std::abs(sheets.sheets()[1].share - share) <= tolerance);
-        CHECK(std::abs(sheets.sheets()[0].share - (1 - share)) <= tolerance);
+        CHECK(std::abs(groups.groups()[1].share - share) <= tolerance);
+        CHECK(std::abs(groups.groups()[0].share - (1 - share)) <= tolerance);
         std::size_t flagged = 0;
         for (std::size_t i = 0; i < photons.size(); ++i)
-            flagged += sheets.is_next_to_border(i);
+            flagged += groups.is_next_to_border(i);
         CHECK(double(flagged) <= 0.02 * double(photons.size()));
     }
 }
 
-TEST_CASE("emission sheets: photons without any path make no sheets") {
-    CHECK(sheets_of({}).sheets().empty());
-    CHECK(sheets_of(photons_on([](double, double) { return 0u; }, 100)).sheets().empty());
-    const EmissionSheets one = sheets_of(photons_on([](double, double) { return 5u; }, 1));
-    REQUIRE(one.sheets().size() == 1);
-    CHECK(one.sheets()[0].share == 1);
+TEST_CASE("path groups: photons that are all lost make no groups") {
+    CHECK(groups_of({}).groups().empty());
+    CHECK(groups_of(photons_on([](double, double) { return 0u; }, 100)).groups().empty());
+    const PathGroups one = groups_of(photons_on([](double, double) { return 5u; }, 1));
+    REQUIRE(one.groups().size() == 1);
+    CHECK(one.groups()[0].share == 1);
 }
 
-TEST_CASE("emission sheets: any number of threads finds the same") {
+TEST_CASE("path groups: any number of threads finds the same groups") {
     Draws draw(2);
     const auto photons = photons_on([&](double u, double) { return u < 0.3 ? 1u : draw.in(0, 1) < 0.3 ? 2u : 3u; });
-    const EmissionSheets serial = sheets_of(photons);
+    const PathGroups serial = groups_of(photons);
     for (const unsigned threads : {2u, 7u}) {
         ThreadExecutor executor(threads);
-        const EmissionSheets again(PathSamples(photons), false,
-                                   [&](std::size_t count, const auto& task) { executor(count, task); });
-        for (std::size_t k = 0; k < serial.sheets().size(); ++k)
-            CHECK(again.sheets()[k].share == serial.sheets()[k].share);
+        const PathGroups again(PathSamples(photons), false,
+                               [&](std::size_t count, const auto& task) { executor(count, task); });
+        for (std::size_t k = 0; k < serial.groups().size(); ++k)
+            CHECK(again.groups()[k].share == serial.groups()[k].share);
         for (std::size_t i = 0; i < photons.size(); ++i)
             REQUIRE(again.is_next_to_border(i) == serial.is_next_to_border(i));
     }

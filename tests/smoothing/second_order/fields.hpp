@@ -46,8 +46,8 @@ template <class Map>
 /// S of a map without any bend, by the rule.
 [[nodiscard]] inline double straight_radius2(double photons = all, double share = 1,
                                              const SmoothingBounds& bounds = {}) {
-    const Symmetric2 s = smoothing_tensor(log_bending(Symmetric2::isotropic(5 / (pi<double> * photons)), bounds),
-                                          {.stratified = true, .share = share}, bounds);
+    const Symmetric2 s = shape_tensor(log_bending(Symmetric2::isotropic(5 / (pi<double> * photons)), bounds),
+                                      {.stratified = true, .share = share}, bounds);
     REQUIRE(s.xx == doctest::Approx(s.yy));
     return s.xx;
 }
@@ -79,8 +79,8 @@ inline void check_close(const Symmetric2& a, const Symmetric2& b, double toleran
             {-0.2 * std::sin(a) * std::sin(b), 1 + 0.2 * u, 0}};
 }
 
-/// Two sheets, side by side.
-struct TwoSheets {
+/// Two groups, side by side.
+struct TwoGroups {
     double border = 0.5;
     [[nodiscard]] Landing operator()(double u, double v) const {
         Landing landing = affine(u, v);

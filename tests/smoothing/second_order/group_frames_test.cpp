@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "nephroid/smoothing/second_order/sheet_metric.hpp"
+#include "nephroid/smoothing/second_order/group_frames.hpp"
 
 #include "smoothing/second_order/maps.hpp"
 
@@ -45,13 +45,13 @@ void check_same(const PlaneMatrix& found, const PlaneMatrix& expected) {
 
 } // namespace
 
-TEST_CASE("sheet metric: beside a kink along a diagonal of the square either side has its own") {
+TEST_CASE("group frames: each side of a kink along a diagonal has its own matrix") {
     const auto samples = tests::lattice(side, side);
     std::vector<PathSample> photons;
     for (const auto& sample : samples)
         photons.push_back(emitted(sample));
     const PathSamples all(photons);
-    detail::SheetCells cells(EmissionCells(samples, 1, false, 9));
+    detail::GroupCells cells(EmissionCells(samples, 1, false, 9));
     int whole = 0, parted = 0;
     for (std::size_t i = 0; i < cells.size(); ++i) {
         detail::choose_frame(cells[i], cells, all);
@@ -60,12 +60,12 @@ TEST_CASE("sheet metric: beside a kink along a diagonal of the square either sid
         const double u = middle[0] - 0.5, v = middle[1] - 0.5, cell = 1.0 / std::sqrt(double(cells.size()));
         const double from_diagonal = std::abs(std::abs(u) - std::abs(v));
         if (from_diagonal > 1.5 * cell) {
-            for (const PlaneMatrix& metric : cells[i].metric_by_side)
-                check_same(metric, derivatives(u, v));
+            for (const PlaneMatrix& to_frame : cells[i].to_frame_by_side)
+                check_same(to_frame, derivatives(u, v));
             ++whole;
         } else if (from_diagonal < 0.5 * cell && std::min(std::abs(u), std::abs(v)) > 1.6 * cell) {
-            check_same(cells[i].metric_by_side[0], derivatives(u, 0));
-            check_same(cells[i].metric_by_side[1], derivatives(0, v));
+            check_same(cells[i].to_frame_by_side[0], derivatives(u, 0));
+            check_same(cells[i].to_frame_by_side[1], derivatives(0, v));
             ++parted;
         }
     }
@@ -73,7 +73,7 @@ TEST_CASE("sheet metric: beside a kink along a diagonal of the square either sid
     CHECK(parted == 4 * 9);
 }
 
-TEST_CASE("sheet metric: a sample lies in the triangle of the side that it is nearest to") {
+TEST_CASE("group frames: a sample lies in the triangle of the side that it is nearest to") {
     CHECK(detail::side_of({0.1, 0.4}) == 0);
     CHECK(detail::side_of({0.9, 0.4}) == 0);
     CHECK(detail::side_of({0.4, 0.1}) == 1);
@@ -81,14 +81,14 @@ TEST_CASE("sheet metric: a sample lies in the triangle of the side that it is ne
 }
 
 // Photons in one place, or in a line, span nothing.
-TEST_CASE("sheet metric: photons in a line have no metric") {
+TEST_CASE("group frames: photons on a line give no frame") {
     std::vector<PathSample> photons;
     tests::Samples samples;
     for (int i = 0; i < 40; ++i)
         samples.push_back({0.5, (i + 0.5) / 40});
     for (const auto& sample : samples)
         photons.push_back(emitted(sample));
-    detail::SheetCells cells(EmissionCells(samples, 1, false, 40));
+    detail::GroupCells cells(EmissionCells(samples, 1, false, 40));
     REQUIRE(cells.size() == 1);
     detail::choose_frame(cells[0], cells, PathSamples(photons));
     CHECK(!cells[0].has_frame);

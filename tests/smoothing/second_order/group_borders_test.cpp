@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "nephroid/smoothing/second_order/sheet_border.hpp"
+#include "nephroid/smoothing/second_order/group_borders.hpp"
 
-#include "smoothing/second_order/sheets.hpp"
+#include "smoothing/second_order/fields.hpp"
 
 #include <doctest/doctest.h>
 
@@ -12,15 +12,15 @@ using namespace nephroid::detail;
 using namespace nephroid::tests;
 
 // The outermost photons on the left are at column 30 of 0 to 62, on the right at column 31: borders are laid there.
-TEST_CASE("sheet border: where paths change there is a border for those on either side") {
-    const TwoSheets sheets;
-    const Field field = field_of(sheets);
+TEST_CASE("group borders: both sides of a change of path have a border") {
+    const TwoGroups map;
+    const Field field = field_of(map);
     const double s2 = straight_radius2(), width = side * step;
     const double left = 30.5 / side, right = 31.5 / side, across = between(s2, 0.5 * width, width);
     for (const double away : {0.005, 0.03, 0.08, 0.2}) {
         CAPTURE(away);
         for (const double u : {left - away, right + away}) {
-            const auto here = at(field, sheets, u, 0.5);
+            const auto here = at(field, map, u, 0.5);
             REQUIRE(here);
             check_close(here->shape, {between(narrowed(s2, away * width), u * width, width), 0, across}, 1e-6 * s2);
             CHECK(std::sqrt(inner(here->second[0], here->second[0])) <= 1e-12); // no difference was taken across
@@ -44,7 +44,7 @@ TEST_CASE("sheet border: where paths change there is a border for those on eithe
 // direction is off by 45 degrees at most (where of a cell's surroundings a corner is cut off, or a side), so that it
 // may be laid 1.5 cells too far out; nearer ones than the least radius count as that, 1.1 steps. More than 2 steps are
 // rare: 1% of the photons looked at, of which there are some 300 to a lattice; the 2% allowed are not derived.
-TEST_CASE("sheet border: borders may run any way") {
+TEST_CASE("group borders: borders are found in any direction") {
     const auto askew = [](double u, double v) {
         Landing landing = affine(u, v);
         landing.signature = u + 0.6 * v < 0.8 ? 1 : 2;
@@ -73,7 +73,7 @@ TEST_CASE("sheet border: borders may run any way") {
     }
 }
 
-TEST_CASE("sheet border: where photons are lost there is a border") {
+TEST_CASE("group borders: lost photons make a border") {
     auto photons = photons_of(affine, lattice(std::size_t(side), std::size_t(side)));
     for (MapPhoton& photon : photons)
         if (photon.sample.at[0] > 0.501)
@@ -89,7 +89,7 @@ TEST_CASE("sheet border: where photons are lost there is a border") {
 }
 
 // All nine photons of a cell lost: those beside it are a step away from its border, and the next cells three more.
-TEST_CASE("sheet border: a hole is a border for what is around it") {
+TEST_CASE("group borders: a hole makes a border for the cells around it") {
     auto photons = photons_of(affine, lattice(std::size_t(side), std::size_t(side)));
     for (std::size_t y = 30; y < 33; ++y)
         for (std::size_t x = 30; x < 33; ++x)
@@ -107,7 +107,7 @@ TEST_CASE("sheet border: a hole is a border for what is around it") {
     check_close(above->shape, {across, 0, beside(4 * step, 2)}, 1e-6 * s2);
 }
 
-TEST_CASE("sheet border: photons lost here and there are no border") {
+TEST_CASE("group borders: single lost photons make no border") {
     constexpr double wide = 240, count = wide * wide;
     auto photons = photons_of(affine, lattice(std::size_t(wide), std::size_t(wide)));
     for (std::size_t i = 5; i < photons.size(); i += 37) // apart from one another

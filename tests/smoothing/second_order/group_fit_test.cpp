@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "nephroid/smoothing/second_order/sheet_fit.hpp"
+#include "nephroid/smoothing/second_order/group_fit.hpp"
 
-#include "smoothing/second_order/sheets.hpp"
+#include "smoothing/second_order/fields.hpp"
 
 #include <doctest/doctest.h>
 
@@ -12,7 +12,7 @@ using namespace nephroid;
 using namespace nephroid::detail;
 using namespace nephroid::tests;
 
-TEST_CASE("sheet fit: a quadratic map's second derivatives are the same everywhere") {
+TEST_CASE("group fit: a quadratic map's second derivatives are the same everywhere") {
     for (const bool given : {false, true}) {
         FieldOptions options = stratified();
         if (given)
@@ -37,7 +37,7 @@ TEST_CASE("sheet fit: a quadratic map's second derivatives are the same everywhe
 
 // Facets 3 lattice steps wide, each with a J of its own: no quadratic map fits, and a footprint over several of them
 // would show a picture of their average.
-TEST_CASE("sheet fit: facets make footprints smaller than a smooth map does") {
+TEST_CASE("group fit: facets make footprints smaller than a smooth map does") {
     const auto facets = [](double u, double v) {
         Landing landing = affine(u, v);
         const auto facet = int(u * side / 3) * 7919 + int(v * side / 3) * 104729;
@@ -51,7 +51,7 @@ TEST_CASE("sheet fit: facets make footprints smaller than a smooth map does") {
     CHECK(rough->shape.trace() < 0.2 * smooth->shape.trace());
 }
 
-TEST_CASE("sheet fit: a photon with tangents that are no numbers does not spoil its neighbours") {
+TEST_CASE("group fit: a photon with invalid tangents does not spoil its neighbours") {
     auto photons = photons_of(quadratic, lattice(std::size_t(side), std::size_t(side)));
     const Field plain = field_of(photons, stratified());
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -71,7 +71,7 @@ TEST_CASE("sheet fit: a photon with tangents that are no numbers does not spoil 
 // Beside a pole of the map. The photon's tangents are K times the others', and its weight is 1/K² of theirs: what it
 // adds to the fitted J is at most of the order of |J|/K, to H as much per unit step. With an even weight it would be K
 // |J|.
-TEST_CASE("sheet fit: a photon whose tangents are far longer than those around it does not decide for them") {
+TEST_CASE("group fit: a photon with far longer tangents than its neighbours does not dominate them") {
     constexpr double longer = 1e4;
     auto photons = photons_of(quadratic, lattice(std::size_t(side), std::size_t(side)));
     MapPhoton& pole = photons[30 * 63 + 30]; // a corner of the cell in the middle

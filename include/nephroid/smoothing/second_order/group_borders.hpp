@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+/// @file  The distance and direction from each cell to the border of its path group.
+#pragma once
+
+#include "nephroid/smoothing/second_order/group_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// The unit vector of the same direction; 0 if the vector is too short to have one.
+[[nodiscard]] inline Plane2 unit_or_zero(Plane2 v) {
+    const double norm = std::sqrt(inner(v, v));
+    return norm > 1e-6 ? (1 / norm) * v : Plane2{};
+}
+
+/// Whether the group's border lies in a cell or beside it. The border of the domain does not count.
+[[nodiscard]] inline bool has_border_nearby(const GroupCell& cell, const GroupCells& cells) {
+    bool ends = cell.is_next_to_border;
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+            if (const auto square = cells.grid().neighbour(cell.square, dx, dy)) {
+                const GroupCell* other = cells.cell_in(*square);
+                ends = ends || other == nullptr || !other->is_resolved;
+            }
+    return ends;
+}
+
+/// Sets the border of the group in or beside a cell. It lies behind the outermost photon around, in the direction in
+/// which photons are missing. If they are missing in no direction more than in others, the border is all around.
+inline void mark_border(GroupCell& cell, const EmissionCells& grid, const PathSamples& photons) {
+    const auto middle = grid.middle(cell.square);
+    const double side = std::sqrt(std::abs(cell.to_frame.determinant()) / double(grid.size()));
+    Plane2 sum_of_photons{}, sum_of_squares{};
+    double squares = 0;
+    std::vector<Plane2> positions;
+    for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+            if (const auto square = grid.neighbour(cell.square, dx, dy)) {
+                sum_of_squares = sum_of_squares + cell.to_frame(grid.step_between(middle, grid.middle(*square)));
+                squares += 1;
+                for (const std::uint32_t i : grid.photons(*square)) {
+                    positions.push_back(cell.to_frame(grid.step_between(middle, photons[i].sample.at)));
+                    sum_of_photons = sum_of_photons + positions.back();
+                }
+            }
+    const Plane2 missing = (1 / squares) * sum_of_squares + (-1 / double(positions.size())) * sum_of_photons;
+    cell.border_distance = 0.5 * side;
+    if (!(inner(missing, missing) > square(0.1 * side)))
+        return;
+    const Plane2 outwards = unit_or_zero(missing), across{-outwards.y, outwards.x};
+    double outermost = -1.5 * side;
+    for (const Plane2 position : positions)
+        if (std::abs(inner(position, across)) < 0.5 * side)
+            outermost = (std::max)(outermost, inner(position, outwards));
+    cell.border_distance = outermost;
+    cell.border_direction = outwards;
+}
+
+/// The displacement between the middles of two cells, in the frame of the first.
+[[nodiscard]] inline Plane2 displacement(const GroupCell& from, const GroupCell& to, const EmissionCells& grid) {
+    return from.to_frame(grid.step_between(grid.middle(from.square), grid.middle(to.square)));
+}
+
+/// Finds the group's border for each cell. Borders are passed from cell to cell, as far as footprints reach.
+///
+/// @param largest_radius  of a footprint, in u0: borders further away than this do not matter
+inline void find_borders(GroupCells& cells, const PathSamples& photons, double largest_radius) {
+    std::vector<std::uint32_t> border(cells.size(), GroupCells::no_cell), pending;
+    for (std::uint32_t index = 0; index < cells.size(); ++index)
+        if (cells[index].is_resolved && has_border_nearby(cells[index], cells)) {
+            mark_border(cells[index], cells.grid(), photons);
+            border[index] = index;
+            pending.push_back(index);
+        }
+    // A queue: near borders arrive first, and a nearer one that arrives later replaces them.
+    for (std::size_t next = 0; next < pending.size(); ++next) {
+        const std::uint32_t from = border[pending[next]];
+        cells.for_each_around(cells[pending[next]], [&](const GroupCell& other, double) {
+            const std::uint32_t index = cells.index_of(other);
+            if (!other.is_resolved || index == pending[next])
+                return;
+            const Plane2 away = displacement(other, cells[from], cells.grid());
+            const double distance = cells[from].border_distance + std::sqrt(inner(away, away));
+            const double known = other.border_distance;
+            if ((std::isfinite(known) && !(distance < known - 1e-9 * std::abs(known))) || distance > largest_radius)
+                return;
+            cells[index].border_distance = distance;
+            cells[index].border_direction = unit_or_zero(away);
+            border[index] = from;
+            pending.push_back(index);
+        });
+    }
+}
+
+} // namespace nephroid::detail

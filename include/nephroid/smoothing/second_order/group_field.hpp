@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+/// @file  A field of footprints over one path group, fitted to the photons of the group.
+#pragma once
+
+#include "nephroid/smoothing/second_order/border_bounds.hpp"
+#include "nephroid/smoothing/second_order/path_groups.hpp"
+#include "nephroid/smoothing/second_order/field_options.hpp"
+#include "nephroid/smoothing/second_order/group_borders.hpp"
+#include "nephroid/smoothing/second_order/group_cells.hpp"
+#include "nephroid/smoothing/second_order/group_fit.hpp"
+#include "nephroid/smoothing/second_order/group_frames.hpp"
+#include "nephroid/smoothing/second_order/smoothing_rule.hpp"
+#include "nephroid/smoothing/second_order/varying_shape.hpp"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// Shapes of footprints and second derivatives of the map over one path group, on a grid of cells.
+class GroupField {
+public:
+    /// @param all     photons of the light, emitted with smoothing 1, with two emission coordinates
+    /// @param groups  of these photons
+    /// @param group   one of the groups
+    /// @param run     runs the fits; the field does not depend on it
+    GroupField(const PathSamples& all, const PathGroups& groups, const PathGroup& group, const FieldOptions& options,
+               const TaskRunner& run)
+        : options_(options), density_{options.stratified, group.share}, aspect_(groups.aspect()), bounds_(options),
+          cells_(EmissionCells(coordinates_of(all, group), groups.aspect(), options.repeats,
+                               photons_per_cell(options.stratified, group.share) * double(group.photons.size()) /
+                                   (double(all.size()) * group.share))) {
+        PathSamples photons;
+        for (const std::uint32_t i : group.photons)
+            photons.add(all[i]);
+        const auto for_each_cell = [&](const auto& work) {
+            for_each_index(run, cells_.size(), 32, [&](std::size_t i) { work(cells_[i]); });
+        };
+        for_each_cell([&](GroupCell& cell) {
+            choose_frame(cell, cells_, photons);
+            for (const std::uint32_t i : cells_.grid().photons(cell.square))
+                cell.is_next_to_border = cell.is_next_to_border || groups.is_next_to_border(group.photons[i]);
+        });
+        for_each_cell([&](GroupCell& cell) {
+            if (cell.has_frame)
+                fit_derivatives(cell, cells_, photons, options_, density_.share);
+        });
+        if (options_.smoothing) {
+            for (std::size_t i = 0; i < cells_.size(); ++i)
+                cells_[i].shape = Symmetric2::isotropic(square(*options_.smoothing));
+            return;
+        }
+        find_borders(cells_, photons, options_.bounds.largest_radius);
+        for_each_cell([&](GroupCell& cell) { choose_shape(cell); });
+    }
+
+    /// @return  nothing where too few photons determine the field
+    [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame) const {
+        const GroupCell* here = cells_.cell_in(cells_.grid().cell_of(sample));
+        if (here == nullptr || !here->is_resolved)
+            return std::nullopt;
+        FieldSample result{};
+        VaryingShape shape;
+        const PlaneMatrix& to_frame = here->to_frame_by_side[side_of(sample)];
+        const PlaneMatrix samples_by_step = (frame.axes_of(here->frame) * to_frame).inverse();
+        for (const InterpolationNode& node : cells_.nodes_around(sample)) {
+            const GroupCell* there = cells_.cell_in(node.square);
+            const GroupCell& cell = there != nullptr && there->is_resolved ? *there : *here;
+            // Tensors are converted from the cell's axes to the photon's.
+            const PlaneMatrix axes = frame.axes_of(cell.frame), back = cell.frame.axes_of(frame);
+            const VaryingShape of_cell = shape_in(cell, sample, back).turned(axes);
+            shape.add(node.weight, of_cell);
+            const Plane2 slope{node.slope[0], node.slope[1]};
+            shape.along_u += inner(slope, samples_by_step.first) * of_cell.value;
+            shape.along_v += inner(slope, samples_by_step.second) * of_cell.value;
+            const auto second = turned(cell.map.second, back);
+            for (std::size_t i = 0; i < second.size(); ++i)
+                result.second[i] += node.weight * second[i];
+        }
+        if (!options_.smoothing && !cells_.grid().repeats())
+            bounds_.bound_by_domain(shape, sample, samples_by_step, aspect_);
+        result.shape = shape.value;
+        result.divergence = {shape.along_u.xx + shape.along_v.xy, shape.along_u.xy + shape.along_v.yy};
+        return result;
+    }
+
+private:
+    [[nodiscard]] static std::vector<std::array<double, 2>> coordinates_of(const PathSamples& all,
+                                                                           const PathGroup& group) {
+        std::vector<std::array<double, 2>> coordinates;
+        coordinates.reserve(group.photons.size());
+        for (const std::uint32_t i : group.photons)
+            coordinates.push_back(all[i].sample.at);
+        return coordinates;
+    }
+
+    /// Chooses the shape from how much the map bends, averaged over the cells around.
+    void choose_shape(GroupCell& cell) const {
+        if (!cell.is_resolved)
+            return;
+        double weights = 0;
+        Symmetric2 blurred{};
+        cells_.for_each_around(cell, [&](const GroupCell& other, double weight) {
+            if (!other.is_resolved)
+                return;
+            blurred += weight * congruent(cell.frame.axes_of(other.frame), other.log_q);
+            weights += weight;
+        });
+        cell.shape = options_.scale * shape_tensor((1 / weights) * blurred, density_, options_.bounds);
+    }
+
+    /// A cell's shape at a photon, in the cell's frame, bounded by the border of the group.
+    ///
+    /// @param steps  the photon's axes in the cell's frame, as columns
+    [[nodiscard]] VaryingShape shape_in(const GroupCell& cell, const std::array<double, 2>& sample,
+                                        const PlaneMatrix& steps) const {
+        VaryingShape shape{cell.shape, {}, {}};
+        if (!options_.smoothing) {
+            const EmissionCells& grid = cells_.grid();
+            bounds_.bound_by_group(shape, cell, cell.to_frame(grid.step_between(grid.middle(cell.square), sample)),
+                                   steps);
+        }
+        return shape;
+    }
+
+    FieldOptions options_;
+    PhotonDensity density_;
+    double aspect_; // of the domain: its length along the first coordinate over that along the second
+    BorderBounds bounds_;
+    GroupCells cells_;
+};
+
+} // namespace nephroid::detail
