@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Caustics from the lamp to the eye path vertices: the library's front door. Beside it include the vectors
-///        (nephroid/vector/glm.hpp, or traits of your own) and the lights (nephroid/emission/light/).
+/// @file  The front door: renders caustics from the lamp to the eye path vertices. Include your vectors
+///        (nephroid/vector/glm.hpp, or traits of your own) and the lights (nephroid/emission/light/) as well.
 #pragma once
 
 #include "nephroid/execution/thread_executor.hpp"
@@ -9,8 +9,8 @@
 
 namespace nephroid {
 
-/// Emits photons, walks them through the scene and splats them onto eye path vertices: to second order, or as the
-/// policies say.
+/// Emits photons, follows them through the scene, and splats them onto eye path vertices: to second order, or according
+/// to the policies.
 ///
 /// ```cpp
 /// const nephroid::EyePathMap map(vertices, &MyVertex::position, &MyVertex::normal);
@@ -22,17 +22,17 @@ namespace nephroid {
 /// @param scene      the renderer's: rays and surfaces (transport/scene.hpp); used from several threads
 /// @param light      one light, or a LightSet of several (emission/light/); WithoutTangents for policies that use no
 ///                   differentials (FixedFootprint)
-/// @param sums       what is added to (receiver/sums.hpp)
-/// @param pass       which photons, how many in all, how smooth
-/// @param arguments  in any order, none needed: splat policies (`Default` unless told); a sequence, where photon i's
-///                   numbers come from (`HaltonSequence`): photon i is a pure function of it and i; an executor, who
-///                   runs the work, called to trace and to splat each batch (`SerialExecutor`). The sums do not depend
-///                   on the executor, bit for bit
-/// @return  what became of the flux, and counts
-/// Throws std::invalid_argument for zero photons, a smoothing that is not positive, and bounds of `SecondOrder` that
-/// cannot be.
+/// @param sums       the light is added to these (receiver/sums.hpp)
+/// @param pass       which photons to trace, how many there are in all, and their smoothing
+/// @param arguments  optional, in any order: splat policies (otherwise `Default`), the sequence that photon i's numbers
+///                   come from (otherwise `HaltonSequence`; photon i is a pure function of it and i), and an executor
+///                   that runs the work of each batch (otherwise `SerialExecutor`). The sums are the same bit for bit
+///                   with any executor
+/// @return  what became of the flux, with counts
+/// Throws std::invalid_argument for zero photons, a smoothing that is not positive, and options of `SecondOrder` that
+/// make no sense.
 /// Memory: the sums, one batch, and the pilot photons of second-order splatting, whatever the number of photons; while
-/// a smoothing is chosen for lights without cells (smoothing/cross_validation.hpp), the sums twice.
+/// it chooses a smoothing for lights without a domain (smoothing/cross_validation.hpp), a second copy of the sums.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
                  detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>>)

@@ -47,7 +47,7 @@ std::vector<std::uint32_t> order_of(const L& light, std::uint64_t first, std::si
     CoherentOrder order;
     SerialExecutor executor;
     std::vector<std::uint32_t> numbers;
-    for (const PlacedPhoton& photon : order.sort(light, sequence, first, count, executor))
+    for (const KeyedPhoton& photon : order.sort(light, sequence, first, count, executor))
         numbers.push_back(photon.number);
     return numbers;
 }
@@ -91,16 +91,16 @@ TEST_CASE("coherent order: a place on the curve is found by halving the domain")
         const auto with_light = [](std::uint32_t place, std::uint32_t light) {
             return place / 256 * 0x1000000u + light * 0x100u + place % 256;
         };
-        CHECK(place_on_z_curve({{u[0], u[1]}, 0, 2, {}}) == with_light(of_two, 0));
-        CHECK(place_on_z_curve({{u[0], u[1]}, 7, 4, {u[2], u[3]}}) == with_light(of_four, 7));
+        CHECK(z_curve_key({{u[0], u[1]}, 0, 2, {}}) == with_light(of_two, 0));
+        CHECK(z_curve_key({{u[0], u[1]}, 7, 4, {u[2], u[3]}}) == with_light(of_four, 7));
     }
-    CHECK(place_on_z_curve({{0.999, 0.999}, 0x12345, 2, {}}) == 0xff2345ffu);
+    CHECK(z_curve_key({{0.999, 0.999}, 0x12345, 2, {}}) == 0xff2345ffu);
 }
 
 TEST_CASE("coherent order: numbers that no sequence should give lie in the first cell") {
     for (const double bad : {1.0, -0.1, 1e300, -std::numeric_limits<double>::infinity(),
                              std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-        CHECK(place_on_z_curve({{bad, bad}, 0, 2, {}}) == 0);
+        CHECK(z_curve_key({{bad, bad}, 0, 2, {}}) == 0);
 }
 
 TEST_CASE_TEMPLATE("coherent order: sorts by place and keeps the order of indices where places are the same", Sequence,
@@ -111,8 +111,8 @@ TEST_CASE_TEMPLATE("coherent order: sorts by place and keeps the order of indice
         std::vector<std::uint32_t> expected(count);
         std::iota(expected.begin(), expected.end(), 0u);
         std::stable_sort(expected.begin(), expected.end(), [&](std::uint32_t a, std::uint32_t b) {
-            return place_on_z_curve(sample_of(light, sequence, first + a)) <
-                   place_on_z_curve(sample_of(light, sequence, first + b));
+            return z_curve_key(sample_of(light, sequence, first + a)) <
+                   z_curve_key(sample_of(light, sequence, first + b));
         });
         CHECK(order_of(light, first, count, sequence) == expected);
     };
@@ -172,8 +172,8 @@ TEST_CASE("coherent order: several threads find the same one") {
     for (const std::size_t count : {5000u, 1500u}) { // the second one in the memory of the first
         const auto a = one.sort(sun(), sequence, 9, count, serial);
         const auto b = other.sort(sun(), sequence, 9, count, threads);
-        CHECK(std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const PlacedPhoton& p, const PlacedPhoton& q) {
-            return p.place == q.place && p.number == q.number;
+        CHECK(std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const KeyedPhoton& p, const KeyedPhoton& q) {
+            return p.key == q.key && p.number == q.number;
         }));
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The optional last arguments of calls that trace photons: a sequence, an executor and others, each known by
-///        what it can do, so that any may be left out and they may stand in any order.
+/// @file  The optional last arguments of calls that trace photons: a sequence, an executor and others. Each is
+///        recognised by its interface, so that any may be left out and they may stand in any order.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -20,7 +20,7 @@ struct ExecutorKind {
     static constexpr bool is = ExecutorArgument<A>;
 };
 
-/// The first of the arguments that is of a kind, or the fallback.
+/// The first argument of a kind, or the fallback.
 template <class Kind, class Fallback>
 [[nodiscard]] constexpr auto& argument_of(Fallback& fallback) {
     return fallback;
@@ -33,7 +33,7 @@ template <class Kind, class Fallback, class First, class... Rest>
         return argument_of<Kind>(fallback, rest...);
 }
 
-/// Something that is meant to be a sequence, so that its faults can be named.
+/// A type that is probably meant to be a sequence, so that the error can say what it lacks.
 template <class A>
 concept NearlySequence = SamplesAs < std::remove_cvref_t<A>,
 float > || SamplesAs<std::remove_cvref_t<A>, double> || SaysWhetherStratified<std::remove_cvref_t<A>>;
@@ -57,7 +57,7 @@ consteval bool explain_repetition() {
     return false;
 }
 
-/// Of one of the kinds, or an error that says what is wrong.
+/// An argument of one of the kinds; otherwise an error says what is wrong.
 template <class A, class... Kinds>
 concept MustBeOneOf = (Kinds::template is<A> || ...) || explain_argument<A>();
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How many photons to emit for a wanted number of caustic photons: a pilot pass.
+/// @file  Finds how many photons to emit for a wanted number of caustic photons, by a pilot pass.
 #pragma once
 
 #include "nephroid/emission/light.hpp"
@@ -19,8 +19,8 @@
 namespace nephroid {
 
 namespace detail {
-/// The share of emitted photons that become caustic photons, from the first few thousand of the very sequence that
-/// the picture is made with; more of them where caustics are rare. 0 if none of four million does.
+/// The share of emitted photons that become caustic photons. It is measured on the first few thousand photons of the
+/// picture's own sequence, and on more of them if caustics are rare. 0 if none of four million does.
 template <class S, class L, class Sequence, class E>
 [[nodiscard]] double share_of_caustic_photons(const S& scene, const L& light, const WalkLimits& limits,
                                               const Sequence& sequence, E& executor) {
@@ -44,7 +44,8 @@ template <class S, class L, class Sequence, class E>
 }
 } // namespace detail
 
-/// How many photons to emit so that about so many become caustic photons: what `PhotonPass::count` takes.
+/// How many photons to emit so that about a wanted number of them become caustic photons. Give the result as
+/// `PhotonPass::count`.
 ///
 /// ```cpp
 /// const auto count = nephroid::photons_to_emit(scene, light, 50'000, {}, threads);
@@ -52,12 +53,12 @@ template <class S, class L, class Sequence, class E>
 /// ```
 ///
 /// @param scene, light  as for `caustics`
-/// @param wanted        photons that reach a diffuse surface through a specular one
-/// @param limits        those of the pass
-/// @param arguments     in any order, none needed: the sequence of the pass, an executor. The result does not depend on
+/// @param wanted        number of photons that should reach a diffuse surface by way of a specular one
+/// @param limits        of the pass
+/// @param arguments     optional, in any order: the sequence of the pass, an executor. The result does not depend on
 ///                      the executor
-/// @return  0 if no photon of four million arrives: there is no diffuse surface that a caustic falls on
-/// Throws std::invalid_argument where 10^18 and more would be needed. Cost: 4096 photons, up to four million where
+/// @return  0 if no photon of four million arrives: then no caustic falls on a diffuse surface
+/// Throws std::invalid_argument if 10^18 photons or more would be needed. Cost: 4096 photons, up to four million if
 /// caustics are rare.
 template <class S, class L, class... Arguments>
     requires(detail::MustBeOneOf<Arguments, detail::SequenceKind, detail::ExecutorKind>&&...)

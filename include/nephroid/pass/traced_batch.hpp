@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A batch of photons, traced by several threads in a coherent order and kept in the order of their indices.
+/// @file  A batch of photons, traced by several threads in a coherent order and stored in the order of their indices.
 #pragma once
 
 #include "nephroid/pass/coherent_order.hpp"
@@ -14,31 +14,31 @@
 
 namespace nephroid::detail {
 
-/// Photons of a batch, each in the place of its index, whatever order they were traced in.
+/// Photons of a batch, stored by their indices in whatever order they are traced.
 ///
-/// @tparam Record  what is kept of a photon; default-constructible
+/// @tparam Record  what is stored of a photon; default-constructible
 template <class Record>
 class TracedBatch {
 public:
     /// Traces photons `begin` to end − 1 of a pass.
     ///
-    /// @param first  index of the pass's first photon
-    /// @param trace_one  trace_one(i, account) -> Record: of photon first + i. Called from several threads
-    /// @return  what the accounts add up to; for any executor the same, bit for bit
+    /// @param first      index of the pass's first photon
+    /// @param trace_one  trace_one(i, account) returns the Record of photon first + i. Called from several threads
+    /// @return  the sum of the accounts; the same bit for bit with any executor
     template <PhotonSource L, SampleSequence Sequence, class Trace, ExecutorArgument E>
     Statistics trace(const L& light, const Sequence& sequence, std::uint64_t first, std::uint64_t begin,
                      std::uint64_t end, const Trace& trace_one, E& executor) {
         const auto count = std::size_t(end - begin), per_task = (std::max)(least_per_task, (count + 63) / 64);
-        const std::span<const PlacedPhoton> order = order_.sort(light, sequence, first + begin, count, executor);
+        const std::span<const KeyedPhoton> order = order_.sort(light, sequence, first + begin, count, executor);
         begin_ = begin;
         make_room(count, executor);
         accounts_.resize((count + per_task - 1) / per_task);
         executor(accounts_.size(), [&](std::size_t task) {
-            Statistics account; // the thread's own, not beside another's in memory
+            Statistics account; // a local one, so that threads do not write to the same cache line
             const std::size_t from = task * per_task;
-            for (const PlacedPhoton& photon : order.subspan(from, (std::min)(per_task, count - from))) {
+            for (const KeyedPhoton& photon : order.subspan(from, (std::min)(per_task, count - from))) {
                 Record& record = at(photon.number);
-                expect(record);
+                prefetch(record);
                 record = trace_one(begin + photon.number, account);
             }
             accounts_[task] = account;
@@ -49,7 +49,7 @@ public:
         return sum;
     }
 
-    /// Photon i of the pass, of the batch traced last.
+    /// The record of photon i of the pass, which must be in the batch traced last.
     [[nodiscard]] Record& operator[](std::uint64_t i) { return at(std::size_t(i - begin_)); }
 
 private:
@@ -59,7 +59,7 @@ private:
         return blocks_[number / records_per_block][number % records_per_block];
     }
 
-    /// New memory costs as much as a tenth of tracing: the threads share that too.
+    /// Allocates records. First use of new memory costs a tenth of tracing, so the threads do it together.
     template <class E>
     void make_room(std::size_t count, E& executor) {
         const std::size_t had = blocks_.size(), want = (count + records_per_block - 1) / records_per_block;
@@ -70,8 +70,8 @@ private:
         blocks_.insert(blocks_.end(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
     }
 
-    /// Asks for a record's cache lines while its photon is on its way: they lie far from the last one's.
-    static void expect(const Record& record) {
+    /// Prefetches a record while its photon is traced, because it is far from the last one in memory.
+    static void prefetch(const Record& record) {
 #if defined(__GNUC__)
         for (std::size_t offset = 0; offset < sizeof(Record); offset += 64)
             __builtin_prefetch(reinterpret_cast<const char*>(&record) + offset, 1);

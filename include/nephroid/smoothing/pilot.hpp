@@ -62,7 +62,7 @@ template <class S, class L, class Sequence, class E>
                                     std::vector<Statistics>(count)};
     announce(executor, Phase::trace);
     CoherentOrder order;
-    const std::span<const PlacedPhoton> sorted = order.sort(light, sequence, pilot.first, count, executor);
+    const std::span<const KeyedPhoton> sorted = order.sort(light, sequence, pilot.first, count, executor);
     for_each_index(executor, count, 512, [&](std::size_t position) {
         const std::size_t i = sorted[position].number;
         pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The inner loop: one splat is added to the vertices of one leaf.
+/// @file  The inner loop: adds one splat to the vertices of one leaf.
 #pragma once
 
 #include "nephroid/receiver/sums.hpp"
@@ -13,10 +13,10 @@
 
 namespace nephroid::detail {
 
-/// Adds kernel · peak (· response) at the vertices that lie in the splat's outline, near enough to its plane, and
-/// face it.
+/// Adds kernel · peak (· response) at the vertices that lie inside the splat's outline, are close enough to its
+/// plane, and face it.
 ///
-/// @param meeting  what has to be asked of each vertex
+/// @param meeting  which of these conditions must be checked for each vertex
 template <Vector3 V, Flux F, class R, class Kernel>
 void add_splat(const Splat<V, F>& splat, const LeafMeeting& meeting, std::uint32_t leaf, const Kernel kernel,
                Sums<V, F, R>& sums) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Which footprint a photon has: that of its differential, or one of a fixed radius.
+/// @file  Policies for a photon's footprint: from its differential, or a disk of fixed radius.
 #pragma once
 
 #include "nephroid/footprint/ellipse.hpp"
@@ -37,7 +37,7 @@ struct FixedFootprint {
 };
 
 namespace detail {
-/// `shape(deposit)`: the photon's footprint, or nothing if it is no ellipse.
+/// `shape(deposit)` returns the photon's footprint, or nothing if it is not an ellipse.
 template <class P, class D, class V>
 concept ShapesFootprint = requires(const P shape, const D& deposit) {
     { shape(deposit) } -> std::same_as<std::optional<Ellipse<V>>>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A photon made ready to be splatted: its footprint, filtered, bounded, and turned into a matrix.
+/// @file  A photon prepared for splatting: its footprint is filtered, bounded, and converted to a matrix.
 #pragma once
 
 #include "nephroid/receiver/eye_path_map.hpp"
@@ -13,25 +13,25 @@
 
 namespace nephroid {
 
-/// One photon as the inner loop wants it: x is inside where |row_a · (x − centre)|² + |row_b · (x − centre)|² <
-/// 1 and |row_n · (x − centre)| < 1.
+/// One photon, ready for the inner loop. A point x is inside the splat if |row_a · (x − centre)|² + |row_b · (x
+/// − centre)|² < 1 and |row_n · (x − centre)| < 1.
 template <Vector3 V, Flux F>
 struct Splat {
     V centre;             ///< relative to the map's origin
     V row_a, row_b;       ///< the filter matrix [Frisvad et al. 2014, eq. 12]
     V row_n;              ///< the normal over the largest normal distance, the third row of the matrix
-    V normal;             ///< unit, towards the side that the photon came from
+    V normal;             ///< unit, on the side from which the photon came
     V direction;          ///< of flight, unit
-    F peak;               ///< flux per unit of the disk's area: times the kernel, an irradiance
-    Box<scalar_t<V>> box; ///< tight about the ellipsoid, relative to the map's origin
+    F peak;               ///< flux over the ellipse's area times π: the kernel's value times this is an irradiance
+    Box<scalar_t<V>> box; ///< tight around the ellipsoid, relative to the map's origin
 };
 
 /// The outcome of `make_splat`: a splat, or why there is none.
 template <Vector3 V, Flux F>
 struct SplatOutcome {
     std::optional<Splat<V, F>> splat;
-    Fate fate = Fate::splatted; ///< anything else where there is no splat
-    bool bounded = false;       ///< a policy changed the footprint
+    Fate fate = Fate::splatted; ///< why there is no splat, if there is none
+    bool bounded = false;       ///< whether a policy changed the footprint
 };
 
 namespace detail {
@@ -63,7 +63,7 @@ consteval bool explain_shape() {
     return false;
 }
 
-/// Policies that turn such a deposit into a splat, or an error that says which one does not.
+/// Policies that can turn such a deposit into a splat; otherwise an error names the one that cannot.
 template <class P, class V, class F, std::size_t N>
 concept MustSplat = (MapsRadius2<decltype(P::kernel), scalar_t<V>> ||
                      explain_kernel_scalar<decltype(P::kernel), scalar_t<V>>()) &&
@@ -73,7 +73,7 @@ concept MustSplat = (MapsRadius2<decltype(P::kernel), scalar_t<V>> ||
                      explain_shape<decltype(P::shape), Deposit<V, F, N>, V>());
 } // namespace detail
 
-/// Turns a photon's deposit into a splat onto a map.
+/// Turns a photon's deposit into a splat.
 template <Vector3 V, Flux F, std::size_t N, class Policies>
     requires detail::MustSplat<Policies, V, F, N>
 [[nodiscard]] SplatOutcome<V, F> make_splat(const Deposit<V, F, N>& deposit, const EyePathMap<V>& map,
@@ -81,7 +81,7 @@ template <Vector3 V, Flux F, std::size_t N, class Policies>
     using Filter = std::remove_cvref_t<decltype(policies.filter)>;
     using T = scalar_t<V>;
     using t = vector_traits<V>;
-    SplatOutcome<V, F> outcome{}; // what every return names, so that none of them copies it
+    SplatOutcome<V, F> outcome{}; // every return names this variable, so that it is never copied
     const std::optional<Ellipse<V>> shape = policies.shape(deposit);
     if (!all_finite(deposit.position) || !shape) {
         outcome.fate = Fate::invalid;
@@ -109,7 +109,7 @@ template <Vector3 V, Flux F, std::size_t N, class Policies>
 
     const T scale = abs(area_scale(ellipse));
     const FilterMatrix<V> filter = filter_matrix(ellipse);
-    // The minor radius is no longer than the root of their product: most footprints need not be asked for it.
+    // The minor radius is at most the square root of the radii's product, so that most footprints do not need it.
     const T normal_distance = T(policies.normal_distance);
     const T thickness = square(normal_distance) * scale < square(spacing)
                             ? spacing

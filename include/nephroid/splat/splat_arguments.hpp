@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What may stand after the pass in a call that splats: policies, a sequence, an executor, in any order.
+/// @file  The optional arguments after the pass in calls that splat: policies, a sequence, an executor, in any order.
 #pragma once
 
 #include "nephroid/pass/call_arguments.hpp"
@@ -16,7 +16,7 @@ struct PoliciesKind {
     static constexpr bool is = is_splat_policies<std::remove_cvref_t<A>>;
 };
 
-/// Splat policies, a sequence or an executor, or an error that says what is wrong.
+/// Splat policies, a sequence or an executor; otherwise an error says what is wrong.
 template <class A>
 concept MustBeSplatArgument = MustBeOneOf<A, PoliciesKind, SequenceKind, ExecutorKind>;
 

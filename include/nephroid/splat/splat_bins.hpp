@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// @file  A batch's splats, sorted by the leaves that they meet.
+/// @file  A batch's splats, sorted by the leaves that they overlap.
 ///
-/// A group of leaves gets its splats in the order of their photons' indices, whoever sorts them and whoever sums them
-/// up, so that the sums are the same bit for bit for any number of threads, without atomics or locks.
+/// A group of leaves gets its splats in the order of their photons' indices, whichever threads sort and add them. So
+/// the sums are the same bit for bit for any number of threads, without atomics or locks.
 #pragma once
 
+#include "nephroid/execution/counting_sort.hpp"
 #include "nephroid/splat/splat_chunk.hpp"
 
 #include <algorithm>
@@ -12,12 +13,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
-#include <vector>
 
 namespace nephroid::detail {
 
-/// A splat, and a leaf that it meets.
+/// A splat, and one of the leaves that it overlaps.
 template <Vector3 V, Flux F>
 struct BinnedSplat {
     const Splat<V, F>* splat;
@@ -25,7 +24,7 @@ struct BinnedSplat {
     LeafMeeting meeting;
 };
 
-/// One bin for each group of neighbouring leaves.
+/// Bins of splats, one for each group of neighbouring leaves.
 template <Vector3 V, Flux F>
 class SplatBins {
 public:
@@ -37,55 +36,46 @@ public:
 
     [[nodiscard]] std::size_t groups() const { return groups_; }
 
-    /// The splats of one group, in the order of their photons, as long as the chunks stay as they are.
+    /// The splats of one group, in the order of their photons. Valid until the chunks change.
     [[nodiscard]] std::span<const BinnedSplat<V, F>> operator[](std::size_t group) const {
-        return std::span(bins_).subspan(begin_[group], begin_[group + 1] - begin_[group]);
+        return sorted_.items_of(group);
     }
 
-    /// Sorts the chunks' visits by group, keeping the photons' order: a counting sort, of which 16 parts count and move
-    /// their visits at the same time. More would take longer to add up than they save.
+    /// Sorts the chunks' visits by group and keeps the photons' order.
     template <class E>
     void sort(std::span<const Chunk> chunks, E& executor) {
-        next_.assign(parts * groups_, 0);
+        sorted_.start(parts, groups_);
         executor(parts, [&](std::size_t part) {
-            for_each_visit(chunks, part, [](std::size_t& visits, const LeafVisit&, const Chunk&) { ++visits; });
+            for_each_visit(chunks, part, [&](const LeafVisit& visit, const Chunk&) {
+                sorted_.count(part, visit.leaf >> group_bits_);
+            });
         });
-        begin_.resize(groups_ + 1);
-        std::size_t sum = 0;
-        for (std::size_t group = 0; group < groups_; ++group) {
-            begin_[group] = sum;
-            for (std::size_t part = 0; part < parts; ++part)
-                sum += std::exchange(next_[part * groups_ + group], sum);
-        }
-        begin_[groups_] = sum;
-        bins_.resize(sum);
+        sorted_.make_room();
         executor(parts, [&](std::size_t part) {
-            for_each_visit(chunks, part, [this](std::size_t& next, const LeafVisit& visit, const Chunk& chunk) {
-                bins_[next++] = {&chunk.splats()[visit.splat], visit.leaf, visit.meeting};
+            for_each_visit(chunks, part, [&](const LeafVisit& visit, const Chunk& chunk) {
+                sorted_.put(part, visit.leaf >> group_bits_, {&chunk.splats()[visit.splat], visit.leaf, visit.meeting});
             });
         });
     }
 
 private:
-    static constexpr std::size_t parts = 16;
+    static constexpr std::size_t parts = 16; // with more, adding up their counts takes longer than they save
 
-    /// Calls work(counter of the part's visits to the group, visit, chunk) for the chunks of one part.
+    /// Calls work(visit, chunk) for the chunks of one part.
     template <class Work>
-    void for_each_visit(std::span<const Chunk> chunks, std::size_t part, const Work& work) {
+    void for_each_visit(std::span<const Chunk> chunks, std::size_t part, const Work& work) const {
         const std::size_t chunks_per_part = (chunks.size() + parts - 1) / parts;
         const std::size_t end = (std::min)(chunks.size(), (part + 1) * chunks_per_part);
         for (std::size_t chunk = part * chunks_per_part; chunk < end; ++chunk)
             for (const LeafVisit& visit : chunks[chunk].visits())
-                work(next_[part * groups_ + (visit.leaf >> group_bits_)], visit, chunks[chunk]);
+                work(visit, chunks[chunk]);
     }
 
-    /// How many neighbouring leaves one thread sums up together, as a power of two: four, which stay in the nearest
-    /// cache, or what makes 8192 groups at most, as each part of a batch counts its visits to each.
+    /// Logarithm to base 2 of the number of leaves in a group. Four leaves stay in the first-level cache while one
+    /// thread adds to them. Larger trees have larger groups, so that there are at most 8192 of them to count visits to.
     unsigned group_bits_;
     std::size_t groups_;
-    std::vector<BinnedSplat<V, F>> bins_;
-    std::vector<std::size_t> begin_; // of each group in the bins, and their end
-    std::vector<std::size_t> next_;  // by part of the batch, then group: where its next visit goes
+    CountingSort<BinnedSplat<V, F>> sorted_; // by group
 };
 
 } // namespace nephroid::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file  The published method: photon differential splatting from the lamp to the eye path vertices
-///        [Frisvad et al. 2014]. Who includes this and not nephroid/caustics.hpp compiles no second order.
+///        [Frisvad et al. 2014]. Include this instead of nephroid/caustics.hpp to compile no second order.
 #pragma once
 
 #include "nephroid/emission/without_tangents.hpp"
@@ -17,7 +17,7 @@
 namespace nephroid {
 
 namespace detail {
-/// Splats each photon where it lands, all with the smoothing of the pass.
+/// Splats each photon where it lands, with the same smoothing for all.
 template <class S, class L, class V, class F, class R, class Policies, class Sequence, class E>
 Statistics splat_to_first_order(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
                                 const Policies& policies, const Sequence& sequence, E& executor) {
@@ -42,7 +42,7 @@ Statistics splat_to_first_order(const S& scene, const L& light, Sums<V, F, R>& s
 }
 } // namespace detail
 
-/// Emits photons, walks them through the scene and splats them onto eye path vertices, each where it lands.
+/// Emits photons, follows them through the scene, and splats each onto the eye path vertices where it lands.
 ///
 /// ```cpp
 /// const nephroid::EyePathMap map(vertices, &MyVertex::position, &MyVertex::normal);
@@ -53,13 +53,12 @@ Statistics splat_to_first_order(const S& scene, const L& light, Sums<V, F, R>& s
 /// @param scene      the renderer's: rays and surfaces (transport/scene.hpp); used from several threads
 /// @param light      one light, or a LightSet of several (emission/light/); WithoutTangents for policies that use no
 ///                   differentials (FixedFootprint)
-/// @param sums       what is added to (receiver/sums.hpp)
-/// @param pass       which photons, how many in all, how smooth
-/// @param arguments  in any order, none needed: splat policies to first order (`Published` unless told); a sequence,
-///                   where photon i's numbers come from (`HaltonSequence`); an executor, who runs the work, called to
-///                   trace and to splat each batch (`SerialExecutor`). The sums do not depend on the executor, bit for
-///                   bit
-/// @return  what became of the flux, and counts
+/// @param sums       the light is added to these (receiver/sums.hpp)
+/// @param pass       which photons to trace, how many there are in all, and their smoothing
+/// @param arguments  optional, in any order: first-order splat policies (otherwise `Published`), the sequence that
+///                   photon i's numbers come from (otherwise `HaltonSequence`), and an executor that runs the work of
+///                   each batch (otherwise `SerialExecutor`). The sums are the same bit for bit with any executor
+/// @return  what became of the flux, with counts
 /// Throws std::invalid_argument for zero photons and a smoothing that is not positive. Memory: the sums and one batch,
 /// whatever the number of photons.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Some of a batch's splats, and the leaves of the eye path map that each of them meets.
+/// @file  A part of a batch's splats, and the leaves of the eye path map that each of them overlaps.
 #pragma once
 
 #include "nephroid/splat/splat_reach.hpp"
@@ -10,24 +10,26 @@
 
 namespace nephroid::detail {
 
-/// All leaves of the map's tree take photons.
+/// Selects all leaves of the map's tree.
 struct EveryLeaf {
     [[nodiscard]] constexpr bool operator()(std::uint32_t) const { return true; }
 };
 
-/// The splat with this number meets this leaf.
+/// A splat and a leaf that it overlaps, by their indices.
 struct LeafVisit {
     std::uint32_t leaf, splat;
     LeafMeeting meeting;
 };
 
-/// Splats that one thread has made, in the order of their photons. Aligned, as threads fill neighbouring chunks at the
+/// Splats made by one thread, in the order of their photons. Aligned, because threads fill neighbouring chunks at the
 /// same time.
 template <Vector3 V, Flux F>
 class alignas(64) SplatChunk {
 public:
-    /// @param takes  takes(leaf) -> whether that leaf of the map's tree is to get its part
-    /// @return  whether the splat meets a leaf with vertices that may lie in it and face it; else it is not kept
+    /// Adds a splat if it overlaps a leaf that has vertices which may lie inside it and face it.
+    ///
+    /// @param takes  takes(leaf) returns whether a leaf of the map's tree is to receive light
+    /// @return  whether the splat was added
     template <class Takes = EveryLeaf>
     bool add(const EyePathMap<V>& map, const Splat<V, F>& splat, const Takes& takes = {}) {
         const std::size_t before = visits_.size();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The one loop over batches of photons: trace, make splats, add them up.
+/// @file  The loop over batches of photons: trace them, make splats of them, add the splats to the sums.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -14,17 +14,23 @@
 
 namespace nephroid::detail {
 
-/// A batch is traced in parallel, made ready in chunks, and binned together. How many photons it has follows from how
-/// many leaves the splats of the batch before met, so that memory does not grow with the footprints either; it grows by
-/// no more than a factor at a time. The more it has, the closer together are those that are traced one after the other.
-/// The sums do not depend on it, bit for bit.
+/// Chooses the number of photons in a batch.
+///
+/// A batch is traced in parallel, prepared in chunks, and binned as a whole. The next batch has as many photons as make
+/// `visits` pairs of splat and leaf, estimated from the last batch, so that memory does not grow with the size of the
+/// footprints. It is at most `growth` times as large as the last one. Large batches are faster, because photons that
+/// are traced one after the other are closer together. The sums are the same bit for bit with any sizes.
 struct BatchSizes {
     static constexpr std::size_t chunks = 64;
     static constexpr std::size_t least = 4 * chunks, first = 16 * chunks, most = 1024 * chunks;
-    static constexpr std::size_t most_watched = most / 8; ///< where somebody waits to stop the pass
+    static constexpr std::size_t most_watched = most / 8; ///< in passes with `progress`, which may stop them
     static constexpr std::size_t visits = std::size_t(1) << 19, growth = 8;
 
-    /// How many photons the next batch has, after one of `count` with so many visits to leaves.
+    /// The number of photons in the next batch.
+    ///
+    /// @param count    photons in the last batch
+    /// @param batch    size chosen for the last batch
+    /// @param visited  pairs of splat and leaf that it made
     [[nodiscard]] static constexpr std::uint64_t after(std::uint64_t count, std::uint64_t batch, std::uint64_t visited,
                                                        bool is_watched) {
         const std::uint64_t fitting = count * visits / (visited + 1), grown = growth * batch;
@@ -32,17 +38,18 @@ struct BatchSizes {
     }
 };
 
-/// For photons that were traced before.
+/// Traces nothing: for photons that were traced before.
 struct NothingToTrace {
     Statistics operator()(std::uint64_t, std::uint64_t) const { return {}; }
 };
 
 /// Splats photons 0 to count − 1.
 ///
-/// @param prepare   prepare(i, chunk, account) makes photon i a splat of the chunk, with its final footprint; what
-///                  became of it otherwise is in the account. Called from several threads
+/// @param prepare   prepare(i, chunk, account) adds photon i's splat to the chunk, or books in the account why there is
+///                  none. Called from several threads
 /// @param trace     trace(begin, end) -> Statistics: called before photons begin to end − 1 are prepared
-/// @param progress  may be empty; called after each batch with the photons done so far, ends the loop if it says false
+/// @param progress  may be empty; called after each batch with the number of photons done so far. If it returns false,
+///                  the loop ends
 template <class Splatter, class Prepare, class E, class Trace = NothingToTrace>
 Statistics splat_in_batches(Splatter& splatter, std::uint64_t count, const Prepare& prepare, E& executor,
                             const Trace& trace = {}, const std::function<bool(std::uint64_t)>& progress = {}) {

@@ -17,11 +17,11 @@
 
 namespace nephroid {
 
-/// What is changed of stored photons before they are splatted.
+/// Factors that are applied to stored photons as they are splatted.
 struct Rescaling {
-    double smoothing = 1; ///< > 0: their tangents are multiplied by it. Of photons that were traced with smoothing 1 it
-                          ///< is the smoothing s of the picture
-    double flux = 1;      ///< >= 0: and their fluxes by this: N / n for n of N photons
+    double smoothing = 1; ///< of their tangents, > 0. For photons that were traced with smoothing 1 it is the smoothing
+                          ///< s of the picture
+    double flux = 1;      ///< of their fluxes, >= 0; for n of N photons it is N / n
 };
 
 namespace detail {
@@ -65,7 +65,7 @@ template <class P, class V, class F>
 concept MustStorePhotons = StoresPhotons<P, V, F> || explain_stored_photons<P, V, F>();
 } // namespace detail
 
-/// Splats stored photons, to first order: adds them to the sums as they are, but for the rescaling.
+/// Splats stored photons to first order, each where it lies.
 ///
 /// ```cpp
 /// const auto traced = nephroid::trace_photons(scene, light, {.count = n, .smoothing = 1});
@@ -73,11 +73,11 @@ concept MustStorePhotons = StoresPhotons<P, V, F> || explain_stored_photons<P, V
 /// nephroid::splat(traced.deposits, sums, {.smoothing = 8}, threads);
 /// ```
 ///
-/// @param photons    deposits: a vector, an array, a span; as `trace_photons` returns them, or the renderer's own
+/// @param photons    a range of deposits, from `trace_photons` or the renderer's own: a vector, an array, a span
 /// @param rescaling  of their tangents and fluxes
-/// @param arguments  in any order, none needed: splat policies (`Published` unless told), an executor. The sums do not
-///                   depend on the executor, bit for bit
-/// @return  what became of them: splatted, unseen, collapsed, excessive, invalid. Nothing is counted as emitted
+/// @param arguments  optional, in any order: splat policies (otherwise `Published`), an executor. The sums are the same
+///                   bit for bit with any executor
+/// @return  what became of them: splatted, unseen, collapsed, excessive, invalid. Nothing counts as emitted
 /// Throws std::invalid_argument for a rescaling that is not finite. Memory: one batch.
 template <class Photons, class V, class F, class R, class... Arguments>
     requires(detail::MustStorePhotons<Photons, V, F>&&...&&

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How photons are splatted: policies that are chosen at compile time, by name and one at a time.
+/// @file  The policies of splatting, chosen at compile time: a preset, or one policy at a time by its name.
 ///
 /// ```cpp
 /// const auto policies = nephroid::Published{}.with_kernel(nephroid::EpanechnikovKernel{});
@@ -14,31 +14,32 @@
 
 namespace nephroid {
 
-/// Adds a pixel's footprint to the photon's, so that no footprint falls between the eye path vertices: the image
+/// Adds a pixel's footprint to the photon's, so that no footprint falls between the eye path vertices. The picture then
 /// keeps its energy and converges even at folds. On by default.
 struct PixelFilter {
-    /// Times the kernel's own constant, `pixel_filter_width`. 1 has a pixel box's variance and keeps folds sharpest; a
-    /// picture's energy then varies by up to 0.7% where most light falls into a few pixels. 1.244 puts the zero of the
-    /// biweight's Fourier transform at the pixels' frequency: energy to 0.2% there, and folds half again as blurred.
+    /// Factor of the filter's width (`pixel_filter_width`). With 1 the filter has a pixel box's variance and keeps
+    /// folds sharpest; where most light falls into a few pixels, a picture's energy varies by up to 0.7%. With 1.244
+    /// the zero of the biweight's Fourier transform is at the pixels' frequency; the energy varies by 0.2%, and folds
+    /// are half again as blurred.
     double width_scale = 1;
 };
 
-/// Splats the footprint as it is.
+/// Splats the footprint without a pixel filter.
 struct NoPixelFilter {};
 
-/// Photons are splatted where they land, all with the same smoothing [Frisvad et al. 2014].
+/// Splats photons where they land, all with the same smoothing [Frisvad et al. 2014].
 struct FirstOrder {
     static constexpr bool uses_neighbours = false;
 };
 
 namespace detail {
-/// One of the two filters, or a type with a member `width_scale`.
+/// PixelFilter, NoPixelFilter, or a type with a member `width_scale`.
 template <class P>
 concept FiltersPixels = std::same_as<P, NoPixelFilter> || requires(const P filter) {
     { filter.width_scale } -> std::convertible_to<double>;
 };
 
-/// Whether splats depend on the photons around: `SecondOrder` does (smoothing/policies.hpp).
+/// A type that says whether splats depend on the photons around them, as with `SecondOrder` (smoothing/policies.hpp).
 template <class P>
 concept SplatOrder = requires {
     { P::uses_neighbours } -> std::convertible_to<bool>;
@@ -47,7 +48,8 @@ concept SplatOrder = requires {
 template <class K>
 concept MapsAnyRadius2 = MapsRadius2<K, float> || MapsRadius2<K, double>;
 
-/// The pixel filter widens a footprint by the kernel's variance, and second order shifts it by that.
+/// Whether the policies use the kernel's second moment: the pixel filter's width and the second-order shift depend on
+/// it.
 template <class Filter, class Order>
 inline constexpr bool uses_second_moment = !std::same_as<Filter, NoPixelFilter> || Order::uses_neighbours;
 
@@ -78,7 +80,7 @@ consteval bool explain_order() {
     return false;
 }
 
-/// What can be asked before the vectors are known, or an error that says what is wrong.
+/// Checks what does not depend on the vector type; an error says what is wrong.
 template <class K, class Filter, class Order>
 concept MustBePolicies = ((std::semiregular<K> && MapsAnyRadius2<K>) || explain_kernel<K>()) &&
                          (FiltersPixels<Filter> || explain_filter<Filter>()) &&
@@ -86,8 +88,8 @@ concept MustBePolicies = ((std::semiregular<K> && MapsAnyRadius2<K>) || explain_
                          (!uses_second_moment<Filter, Order> || HasSecondMoment<K> || explain_second_moment<K>());
 } // namespace detail
 
-/// How a photon becomes a splat. Every member is a policy chosen by its type. Begin with a preset, `Published` or
-/// `Default` (smoothing/policies.hpp), set what its policies have to set, and replace those that do not suit:
+/// How a photon becomes a splat. The type of every member is a policy. Begin with a preset, `Published` or `Default`
+/// (smoothing/policies.hpp), set its policies' options, and replace the policies that do not suit:
 ///
 /// ```cpp
 /// nephroid::Default policies{.filter = {1.244}};
@@ -98,14 +100,14 @@ template <class K, class Filter, class Collapse, class Excess, class Shape, clas
 struct SplatPolicies {
     K kernel{};          ///< how a photon's flux is spread over its footprint (footprint/kernel.hpp)
     Filter filter{};     ///< PixelFilter, or NoPixelFilter
-    Collapse collapse{}; ///< what becomes of footprints without area (footprint/policies.hpp)
-    Excess excess{};     ///< and of endless ones
+    Collapse collapse{}; ///< what to do with footprints without area (footprint/policies.hpp)
+    Excess excess{};     ///< what to do with footprints that are too long
     Shape shape{};       ///< DifferentialFootprint, or FixedFootprint (splat/footprint_shape.hpp)
     Order order{};       ///< FirstOrder, SecondOrder or CurvedFootprints (smoothing/policies.hpp)
-    /// Against topological bias: a vertex further from the photon's tangent plane than this many minor radii of the
-    /// footprint (and than the spacing of the vertices) does not receive. Larger lets long footprints bend further
-    /// around curved surfaces, and leak further through thin ones. [Frisvad et al. 2014, after eq. 12; the minor radius
-    /// is nephroid's, as a long footprint would reach far through a table top by its major one]
+    /// Largest distance of a vertex from the photon's tangent plane, in minor radii of the footprint; vertices further
+    /// away (and further than the vertices' spacing) receive nothing. It limits topological bias. With a larger value
+    /// long footprints follow curved surfaces further, and leak further through thin ones. [Frisvad et al. 2014, after
+    /// eq. 12. They use the major radius, with which a long footprint reaches far through a table top]
     double normal_distance = 0.25;
 
     template <class Other>
@@ -145,8 +147,8 @@ struct SplatPolicies {
     }
 };
 
-/// Photon differential splatting as published [Frisvad et al. 2014]: each photon where it lands, the same smoothing for
-/// all, a biweight kernel, a pixel's footprint added to each photon's.
+/// The preset of photon differential splatting as published [Frisvad et al. 2014]: photons are splatted where they
+/// land, all with the same smoothing, a biweight kernel, and a pixel filter.
 using Published =
     SplatPolicies<BiweightKernel, PixelFilter, DiscardCollapsed, BoundMajorRadius, DifferentialFootprint, FirstOrder>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Which leaves of an eye path map a splat reaches, and what has to be asked of their vertices one by one.
+/// @file  Which leaves of an eye path map a splat overlaps, and which conditions must be checked for each vertex there.
 #pragma once
 
 #include "nephroid/splat/splat.hpp"
@@ -9,14 +9,14 @@
 
 namespace nephroid::detail {
 
-/// What a leaf and a splat have to do with each other.
+/// How a leaf and a splat overlap.
 struct LeafMeeting {
-    bool meets;          ///< false only if no vertex lies in the ellipsoid's outline and faces the photon
-    bool checks_height;  ///< some vertices may lie beyond the normal distance
-    bool checks_normals; ///< some may face away
+    bool meets;          ///< false only if no vertex lies inside the outline and faces the photon
+    bool checks_height;  ///< whether some vertices may lie beyond the normal distance
+    bool checks_normals; ///< whether some vertices may face away
 };
 
-/// A splat's matrix by columns, its rows side by side: where on a leaf's box they lie is worked out for all at once.
+/// A splat's matrix, stored by columns so that all of its rows are evaluated on a leaf's box at once.
 template <Vector3 V, Flux F>
 class SplatReach {
 public:
@@ -32,10 +32,10 @@ public:
         const T dx = leaf.middle[0] - t::x(centre_), dy = leaf.middle[1] - t::y(centre_),
                 dz = leaf.middle[2] - t::z(centre_);
         const T hx = leaf.half[0], hy = leaf.half[1], hz = leaf.half[2];
-        // Every row is linear in place, and 0 at the centre: on the box it lies in middle ± reach, rounding included,
-        // as the terms for a thin footprint are large and cancel.
-        std::array<T, 4> least, most; // of its absolute value
-#pragma GCC unroll 1                  // else GCC unrolls it, and then does not vectorise it
+        // Every row is a linear function of position that is 0 at the centre. On the box its values lie within middle
+        // ± reach. The reach includes rounding, because a thin footprint's terms are large and cancel.
+        std::array<T, 4> least, most; // of the absolute value
+#pragma GCC unroll 1                  // otherwise GCC unrolls the loop and does not vectorise it
         for (std::size_t row = 0; row < 4; ++row) {
             const T a = x_[row] * dx, b = y_[row] * dy, c = z_[row] * dz;
             const T middle = abs(a + b + c);
@@ -52,12 +52,13 @@ public:
 
 private:
     using t = vector_traits<V>;
-    /// Of a sum's terms: more than was ever seen, for compilers that fuse products and sums.
+    /// Bound of a sum's rounding error over its terms. It is larger than any error seen, and covers compilers that fuse
+    /// products and sums.
     static constexpr T rounding = T(64) * std::numeric_limits<T>::epsilon();
 
     template <class Coordinate>
     [[nodiscard]] static std::array<T, 4> side_by_side(const Splat<V, F>& splat, const Coordinate& of) {
-        return {of(splat.row_a), of(splat.row_b), of(splat.row_n), T(0)}; // four make a vector
+        return {of(splat.row_a), of(splat.row_b), of(splat.row_n), T(0)}; // four fill a vector register
     }
 
     std::array<T, 4> x_, y_, z_;

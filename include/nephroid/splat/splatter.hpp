@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  From deposits to sums: photons are made splats in chunks, and batches of chunks are added up.
+/// @file  Makes splats of deposits in chunks, and adds batches of chunks to sums.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -14,30 +14,30 @@
 
 namespace nephroid::detail {
 
-/// Splats photons as the policies say and adds them to sums [Frisvad et al. 2014, eq. 10].
+/// Splats photons according to policies and adds them to sums [Frisvad et al. 2014, eq. 10].
 template <class V, class F, class R, class Policies>
 class Splatter {
 public:
     using Chunk = SplatChunk<V, F>;
 
-    /// @param sums  are referred to, and must outlive the splatter
+    /// @param sums  kept by reference; must outlive the splatter
     Splatter(Sums<V, F, R>& sums, const Policies& policies)
         : sums_(&sums), policies_(policies), bins_(sums.map().tree().leaves().size()) {}
 
     [[nodiscard]] const EyePathMap<V>& map() const { return sums_->map(); }
     [[nodiscard]] const Policies& policies() const { return policies_; }
 
-    /// Makes a splat of a deposit; its flux is booked in the account under what became of it. Called from several
-    /// threads with a chunk each.
+    /// Makes a splat of a deposit and books its flux in the account under its fate. May be called from several threads,
+    /// each with a chunk of its own.
     ///
-    /// @param takes  takes(leaf) -> whether that leaf of the map's tree is to get its part: all do unless told
+    /// @param takes  takes(leaf) returns whether a leaf of the map's tree is to receive light
     template <std::size_t N, class Takes = EveryLeaf>
     void prepare(const Deposit<V, F, N>& deposit, Chunk& chunk, Statistics& account, const Takes& takes = {}) const {
         account.end(make(deposit, chunk, account, takes), power(deposit));
     }
 
-    /// The same of a photon that was taken to pieces, at least one: it is splatted if one of them is, and the flux of
-    /// each is booked under what became of it.
+    /// The same for a photon in one or several pieces. It counts as splatted if one of them is, and the flux of each
+    /// piece is booked under the piece's fate.
     template <std::size_t N>
     void prepare(std::span<const Deposit<V, F, N>> pieces, Chunk& chunk, Statistics& account) const {
         std::array<double, fate_count> flux{};
@@ -58,8 +58,8 @@ public:
     template <class E>
     void add(std::span<const Chunk> chunks, E& executor) {
         bins_.sort(chunks, executor);
-        // Neighbouring groups have lines of cache in common, which two threads take from each other again and again: a
-        // task is several where that leaves enough of them for many threads.
+        // Neighbouring groups share cache lines, which slows down two threads that add to them. So a task has several
+        // groups if enough tasks are left for many threads.
         const std::size_t groups_per_task = std::clamp<std::size_t>(bins_.groups() / 256, 1, 4);
         for_each_index(executor, bins_.groups(), groups_per_task, [&](std::size_t group) {
             for (const BinnedSplat<V, F>& binned : bins_[group])
