@@ -5,6 +5,7 @@
 #include "nephroid/receiver/pixel_footprint.hpp"
 #include "nephroid/tree/normal_cone.hpp"
 #include "nephroid/tree/tree_node.hpp"
+#include "nephroid/vector/not_unrolled.hpp"
 
 #include <vector>
 
@@ -50,13 +51,14 @@ template <Scalar T>
         std::array<T, leaf_lanes> low, high; // of every sixteenth slot: as many at once as there are lanes
         std::copy_n(component, leaf_lanes, low.begin());
         high = low;
-        for (std::size_t first = leaf_lanes; first < leaf.size; first += leaf_lanes)
-#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+        for (std::size_t first = leaf_lanes; first < leaf.size; first += leaf_lanes) {
+            NEPHROID_NOT_UNROLLED
             for (std::size_t i = 0; i < leaf_lanes; ++i) {
                 const T x = component[first + i];
                 low[i] = x < low[i] ? x : low[i];
                 high[i] = high[i] < x ? x : high[i];
             }
+        }
         box.low[axis] = *std::min_element(low.begin(), low.end());
         box.high[axis] = *std::max_element(high.begin(), high.end());
     }

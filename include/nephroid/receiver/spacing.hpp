@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/tree/smallest.hpp"
+#include "nephroid/vector/not_unrolled.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,15 +75,15 @@ struct FewPoints {
             places.fill(std::numeric_limits<T>::infinity());
         for (std::size_t i = 0; i < size; ++i) {
             std::array<T, N> sinking;
-#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+            NEPHROID_NOT_UNROLLED
             for (std::size_t k = 0; k < N; ++k)
                 sinking[k] = square(x[i] - cx[k]) + square(y[i] - cy[k]) + square(z[i] - cz[k]);
             for (std::size_t place = 0; place < wanted; ++place) {
                 const std::array<T, N> own = sinking, other = lists[place];
-#pragma GCC unroll 1
+                NEPHROID_NOT_UNROLLED
                 for (std::size_t k = 0; k < N; ++k)
                     lists[place][k] = own[k] < other[k] ? own[k] : other[k];
-#pragma GCC unroll 1
+                NEPHROID_NOT_UNROLLED
                 for (std::size_t k = 0; k < N; ++k)
                     sinking[k] = own[k] < other[k] ? other[k] : own[k];
             }

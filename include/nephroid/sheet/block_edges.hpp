@@ -86,8 +86,8 @@ private:
         const Corner a{j, i}, b{j, i + 1}, c{j + 1, i + 1}, d{j + 1, i};
         const std::array<double, 4> corners = {area(a, b, d), area(a, b, c), area(b, c, d), area(a, c, d)};
         const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
-        const double small = (std::min)(std::abs(*least), std::abs(*most));
-        const double large = (std::max)(std::abs(*least), std::abs(*most));
+        const double smaller = (std::min)(std::abs(*least), std::abs(*most));
+        const double larger = (std::max)(std::abs(*least), std::abs(*most));
         Quad& quad = quads_[j][i];
         const auto density = [&](double signed_area, double share, const Corner& p, const Corner& q, const Corner& r) {
             // Below this rounding of its corners would show in its density.
@@ -101,8 +101,8 @@ private:
             return w;
         };
         const double half = 0.5 * grid_.share;
-        if (*least * *most > 0 && small >= 0.9 * large && small > 2e-4 * pixel_ * pixel_ &&
-            square(small) >= 4e-8 * square(pixel_) * (std::max)(longest2(a, b, c), longest2(a, c, d))) {
+        if (*least * *most > 0 && smaller >= 0.9 * larger && smaller > 2e-4 * pixel_ * pixel_ &&
+            square(smaller) >= 4e-8 * square(pixel_) * (std::max)(longest2(a, b, c), longest2(a, c, d))) {
             const double w = grid_.share / (corners[1] + corners[3]);
             largest_ = (std::max)(largest_, std::abs(w));
             quad.side = {w, w, w, w};

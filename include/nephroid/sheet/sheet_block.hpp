@@ -12,6 +12,7 @@
 #include "nephroid/emission/flux.hpp"
 #include "nephroid/sheet/coverage.hpp"
 #include "nephroid/sheet/receiver_pixels.hpp"
+#include "nephroid/vector/not_unrolled.hpp"
 
 #include <array>
 #include <bit>
@@ -107,7 +108,7 @@ template <Scalar T>
     const T ux = u[0], uy = u[1], uz = u[2], vx = v[0], vy = v[1], vz = v[2];
     std::array<T, lanes> sum{};
     for (const EdgeGroup<T>* e = edges; e != edges + count; ++e) {
-#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+        NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < lanes; ++i) {
             const T ax = e->a[0][i], ay = e->a[1][i], az = e->a[2][i];
             const T bx = e->b[0][i], by = e->b[1][i], bz = e->b[2][i];

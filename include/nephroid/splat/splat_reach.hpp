@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/splat/splat.hpp"
+#include "nephroid/vector/not_unrolled.hpp"
 
 #include <array>
 #include <limits>
@@ -35,7 +36,7 @@ public:
         // Every row is a linear function of position that is 0 at the centre. On the box its values lie within middle
         // ± reach. The reach includes rounding, because a thin footprint's terms are large and cancel.
         std::array<T, 4> least, most; // of the absolute value
-#pragma GCC unroll 1                  // otherwise GCC unrolls the loop and does not vectorise it
+        NEPHROID_NOT_UNROLLED
         for (std::size_t row = 0; row < 4; ++row) {
             const T a = x_[row] * dx, b = y_[row] * dy, c = z_[row] * dz;
             const T middle = abs(a + b + c);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/tree/box.hpp"
+#include "nephroid/vector/not_unrolled.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -52,13 +53,14 @@ public:
     [[nodiscard]] Box<T> bounds(std::size_t begin, std::size_t end) const {
         std::array<T, 4> low = points_[begin].at, high = low; // the fourth has no meaning
         const Point* const points = points_.data();
-        for (std::size_t i = begin + 1; i < end; ++i)
-#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+        for (std::size_t i = begin + 1; i < end; ++i) {
+            NEPHROID_NOT_UNROLLED
             for (std::size_t axis = 0; axis < 4; ++axis) {
                 const T x = points[i].at[axis];
                 low[axis] = x < low[axis] ? x : low[axis];
                 high[axis] = high[axis] < x ? x : high[axis];
             }
+        }
         return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
     }
 

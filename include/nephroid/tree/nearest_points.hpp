@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/tree/smallest.hpp"
+#include "nephroid/vector/not_unrolled.hpp"
 
 #include <algorithm>
 #include <array>
@@ -67,12 +68,12 @@ public:
         const auto all = std::uint32_t(unlimited_);
         std::array<std::uint32_t, N> counts;
         std::uint32_t any = all;
-#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+        NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < N; ++i)
             any |= counts[i] = std::uint32_t(distance2[i] < limit2);
         if (any == 0)
             return;
-#pragma GCC unroll 1
+        NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < N; ++i)
             counts[i] = (counts[i] | all) & std::uint32_t(accept(std::size_t(slot) + i));
         // Without a branch, as which points count is anybody's guess.

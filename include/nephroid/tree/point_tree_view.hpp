@@ -6,6 +6,7 @@
 #include "nephroid/tree/nearest_search.hpp"
 #include "nephroid/tree/volume.hpp"
 #include "nephroid/vector/algebra.hpp"
+#include "nephroid/vector/not_unrolled.hpp"
 
 namespace nephroid {
 
@@ -88,7 +89,7 @@ public:
         const T* const py = y() + slot;
         const T* const pz = z() + slot;
         const T cx = place[0], cy = place[1], cz = place[2];
-#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+        NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < lanes; ++i)
             distance2[i] = square(px[i] - cx) + square(py[i] - cy) + square(pz[i] - cz);
     }

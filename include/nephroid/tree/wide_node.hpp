@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/tree/tree_node.hpp"
+#include "nephroid/vector/not_unrolled.hpp"
 
 namespace nephroid::detail {
 
@@ -20,7 +21,7 @@ struct WideNode {
     /// 1 for each child whose box overlaps this one, else 0.
     [[nodiscard]] std::array<std::uint32_t, width> overlaps(const Box<T>& box) const {
         std::array<std::uint32_t, width> overlap;
-#pragma GCC unroll 1 // else GCC unrolls it, and then does not vectorise it
+        NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < width; ++i)
             overlap[i] = std::uint32_t(int(source[i] != no_leaf) & // a box may be endless
                                        int(low[0][i] <= box.high[0]) & int(box.low[0] <= high[0][i]) &
@@ -38,7 +39,7 @@ struct WideNode {
         std::array<T, width> distance;
         const auto larger = [](const T& a, const T& b) { return a > b ? a : b; };
         const T x = place[0], y = place[1], z = place[2];
-#pragma GCC unroll 1
+        NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < width; ++i) {
             const T beside_x = larger(low[0][i] - x, x - high[0][i]);
             const T beside_y = larger(low[1][i] - y, y - high[1][i]);
