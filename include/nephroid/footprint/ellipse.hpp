@@ -34,7 +34,7 @@ template <Vector3 V>
 }
 } // namespace detail
 
-/// Signed |a × b|: what one unit of the disk's area becomes, world units squared.
+/// Signed |a × b|: the area that one unit of the unit disk's area is mapped to, world units squared.
 template <Vector3 V>
 [[nodiscard]] scalar_t<V> area_scale(const Ellipse<V>& ellipse) {
     return scalar_t<V>(detail::wide_area(ellipse.a, ellipse.b, ellipse.normal));
@@ -80,8 +80,8 @@ struct FilterMatrix {
 /// M for semi-axes a and b: the top rows of the inverse of [a b n], without inverting a 3 × 3 matrix: b × n and n ×
 /// a, over a · (b × n).
 ///
-/// In plain products: a and b lie across n, so nothing cancels in the rows' lengths, and what does in the determinant
-/// costs no more than the rounding of the rows themselves, a few epsilon of |a| |b| / |a × b|.
+/// Plain products suffice: a and b are perpendicular to n, so nothing cancels in the rows' lengths. Cancellation in the
+/// determinant costs no more than the rounding of the rows themselves, a few epsilon times |a| |b| / |a × b|.
 /// The ellipse must not have collapsed: |a × b| > 0; |a| |b| must be in the scalar's range (neither is checked).
 /// Source: Frisvad et al. 2014, eq. 12.
 template <Vector3 V>
@@ -105,8 +105,8 @@ template <Vector3 V>
 }
 
 namespace detail {
-/// Where an ellipse's covariance is written down: unit vectors along the longest of the vectors that span it, and
-/// across.
+/// The frame in which an ellipse's covariance is computed: unit vectors along the longest of the vectors that span it,
+/// and across.
 template <Vector3 V>
 [[nodiscard]] Frame<V> frame_along(const V& longest, const V& normal) {
     using t = vector_traits<V>;
@@ -116,8 +116,8 @@ template <Vector3 V>
     return {u, cross(normal, u)};
 }
 
-/// The ellipse with this covariance in the frame, given by its determinant instead of the variance along v, which
-/// would have to be had by a difference: its Cholesky factor.
+/// The ellipse with a given covariance in a frame: the covariance's Cholesky factor. The determinant is given instead
+/// of the variance along v, because the factor would have to be computed from that by a difference.
 template <Vector3 V>
 [[nodiscard]] Ellipse<V> ellipse_of_covariance(const Frame<V>& frame, const V& normal, wider_t<scalar_t<V>> variance_u,
                                                wider_t<scalar_t<V>> covariance, wider_t<scalar_t<V>> determinant) {
@@ -131,9 +131,9 @@ template <Vector3 V>
 }
 } // namespace detail
 
-/// The ellipse with covariance a aᵀ + b bᵀ + r² (I − n nᵀ): a disk of radius r added in quadrature, which is
-/// what a convolution does to second moments. Continuous through collapse: a point becomes the disk. r = 0 changes
-/// nothing but the choice of axis vectors.
+/// The ellipse with covariance a aᵀ + b bᵀ + r² (I − n nᵀ): a disk of radius r added in quadrature, as a
+/// convolution adds second moments. It is continuous through collapse: a point becomes the disk. r = 0 changes only the
+/// choice of axis vectors.
 template <Vector3 V>
 [[nodiscard]] Ellipse<V> add_disk(const Ellipse<V>& ellipse, scalar_t<V> radius) {
     using T = scalar_t<V>;
@@ -143,11 +143,12 @@ template <Vector3 V>
     const bool along_a = aa >= bb;
     const auto& longer = along_a ? a : b;
     const W longer2 = along_a ? aa : bb;
-    if (longer2 < (std::numeric_limits<W>::min)()) { // a point, as far as its squares tell
+    if (longer2 < (std::numeric_limits<W>::min)()) { // a point: its squares underflow
         const Frame<V> frame = frame_about(ellipse.normal);
         return {radius * frame.u, radius * frame.v, ellipse.normal};
     }
-    // Along the longer vector l the other one has their product over |l|, and across it their area over |l|.
+    // Along the longer vector l, the other one's component is their inner product over |l|; across it, their area over
+    // |l|.
     const W area = detail::wide_dot(n, detail::wide_cross<V>(a, b)), radius2 = square(W(radius));
     const W inverse2 = W(1) / longer2;
     const W variance = longer2 + ab * ab * inverse2 + radius2, covariance = (along_a ? ab : -ab) * area * inverse2;
@@ -162,9 +163,10 @@ template <Vector3 V>
     return {make_vector<V>(sum(0), sum(1), sum(2)), make_vector<V>(other(0), other(1), other(2)), ellipse.normal};
 }
 
-/// The ellipse of any number of tangents' displacements: their covariances add. Two give exactly `footprint`; a
-/// third (time, wavelength) stretches it by what that tangent sweeps over; four are an unaligned emission, whose
-/// octagon [Suykens and Willems 2001] this replaces by the ellipse with the same second moments.
+/// The ellipse of any number of tangents' displacements: their covariances add up. Two tangents give exactly
+/// `footprint`. A third one (time, wavelength) stretches the ellipse along its displacement. Four come from an
+/// unaligned emission, whose octagon [Suykens and Willems 2001] is replaced by the ellipse with the same second
+/// moments.
 template <Vector3 V, std::size_t N>
     requires(N >= 2)
 [[nodiscard]] Ellipse<V> footprint(const std::array<V, N>& d_position, const V& normal) {
@@ -182,7 +184,7 @@ template <Vector3 V, std::size_t N>
             const W u = W(0.5) * detail::wide_dot(d, along), v = W(0.5) * detail::wide_dot(d, across);
             variance_u = variance_u + u * u;
             covariance = covariance + u * v;
-            // Cauchy and Binet: the determinant is the sum over all pairs of their areas' squares.
+            // By the Cauchy-Binet formula the determinant is the sum of all pairs' squared areas.
             for (std::size_t j = 0; j < i; ++j)
                 determinant = determinant + square(W(0.25) * detail::wide_area(d_position[i], d_position[j], normal));
         }

@@ -3,7 +3,7 @@
 ///
 /// A kernel is a small type with
 ///   - `operator()(r2)` for the squared radius r2 = |x|² >= 0: k >= 0, zero for r2 >= 1, and ∫ k over the disk = 1.
-///     It should be free of branches (`keep_if`): it is called in a loop that the compiler vectorises;
+///     It should not branch (use `keep_if`), because it is called in a loop that the compiler vectorises;
 ///   - `second_moment`: ∫ x² k over the disk, the variance along one axis. The pixel filter and second order need
 ///     it.
 ///
@@ -38,8 +38,8 @@ concept HasSecondMoment = requires {
 template <class K, class T = float>
 concept Kernel = std::semiregular<K> && Scalar<T> && MapsRadius2<K, T>;
 
-/// The radius that a disk of kernel K needs to have a pixel box's variance, in units of the pixel's side:
-/// sqrt((1/12) / second moment). What the pixel filter adds to each footprint.
+/// The radius of a disk that under kernel K has the variance of a pixel box, in units of the pixel's side:
+/// sqrt((1/12) / second moment). The pixel filter adds this disk to each footprint.
 template <HasSecondMoment K>
 inline constexpr double pixel_filter_width = [] {
     const double square = 1.0 / (12.0 * double(K::second_moment));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The eye path map: where the camera's paths end, looked up by the footprints that fall on them.
+/// @file  The eye path map: a look-up over the surface points at which the camera's paths end.
 #pragma once
 
 #include "nephroid/receiver/eye_path_view.hpp"
@@ -9,9 +9,9 @@
 
 namespace nephroid {
 
-/// Eye path vertices (hits of the camera's paths on diffuse surfaces) in a kd-tree, read from the user's own array
-/// through projections; the map copies positions and normals and refers to a vertex by its index in that array. What
-/// can be asked of it EyePathView says.
+/// Eye path vertices (hits of the camera's paths on diffuse surfaces) in a kd-tree. Positions and normals are copied
+/// from the user's own array through projections, and the map refers to a vertex by its index in that array.
+/// EyePathView documents the look-ups.
 ///
 /// ```cpp
 /// const nephroid::EyePathMap map(vertices, &MyVertex::position, &MyVertex::normal);
@@ -24,9 +24,10 @@ public:
 
     /// @param vertices   a random-access range; may be empty, and is not needed after the call
     /// @param position   projection to V: a member pointer or a callable; finite
-    /// @param normal     projection to V: unit, on the side that the camera sees; photons on the other do not count
-    /// @param footprint  projection to PixelFootprint<V>, or a range of as many, or nothing: squares of the spacing.
-    ///                   Takes seven scalars a vertex where it is given
+    /// @param normal     projection to V: unit, on the side that the camera sees; photons on the other side do not
+    ///                   count
+    /// @param footprint  projection to PixelFootprint<V>, or a range with one for each vertex; seven scalars per vertex
+    ///                   are stored. If left out, footprints are squares of the vertices' spacing
     /// Throws std::invalid_argument naming the vertex whose position, normal or footprint is not finite, not of unit
     /// length, or without an area.
     template <std::ranges::random_access_range Vertices, class Position, class Normal,
@@ -47,7 +48,7 @@ public:
         diagonal_ = sqrt(diagonal_);
     }
 
-    /// Valid as long as this map lives.
+    /// A view of the map, valid as long as the map lives.
     [[nodiscard]] EyePathView<V> view() const {
         std::array<const T*, 7> rows{};
         for (std::size_t i = 0; !rows_[0].empty() && i < rows.size(); ++i)
@@ -56,7 +57,7 @@ public:
                 {leaves_, nodes_, {normals_[0].data(), normals_[1].data(), normals_[2].data()}, rows, diagonal_}};
     }
 
-    // As EyePathView has them.
+    // See EyePathView.
     [[nodiscard]] const PointTree<V>& tree() const { return tree_; }
     [[nodiscard]] const EyePathLeaf<T>& leaf(std::uint32_t leaf) const { return leaves_[leaf]; }
     [[nodiscard]] const EyePathNode<T>& node(std::uint32_t node) const { return nodes_[node]; }
@@ -93,8 +94,9 @@ private:
         }
     }
 
-    /// Makes the leaves, and bounds their nodes' reach by the spacing.
-    /// @return  the bounds of the leaves' normals, by node
+    /// Makes the leaves, and bounds by the spacing how far their pixels' footprints reach.
+    ///
+    /// @return  for each node that is a leaf, the bounds of its normals
     [[nodiscard]] std::vector<Box<T>> describe_leaves() {
         const PointTreeView<V> tree = tree_.view();
         std::vector<T> spacings;
@@ -164,8 +166,9 @@ private:
         rows_[6][slot] = rows.inverse_area;
     }
 
-    /// Gives the inner nodes the bounds of what is below them.
-    /// @param normals  bounds of the normals, by node; so far of the leaves alone
+    /// Computes the bounds of the inner nodes from those of their children.
+    ///
+    /// @param normals  bounds of the normals for each node; on entry those of the leaves are known
     void describe_nodes(std::vector<Box<T>>& normals) {
         detail::gather_upwards<T>(tree_.nodes(), [&](std::size_t node, std::size_t child) {
             normals[node].add(normals[child]);

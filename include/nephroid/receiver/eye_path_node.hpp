@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What an eye path map knows of its leaves and nodes beyond their points.
+/// @file  The data that an eye path map stores for each leaf and each node, in addition to the points.
 #pragma once
 
 #include "nephroid/receiver/pixel_footprint.hpp"
@@ -11,19 +11,19 @@
 
 namespace nephroid {
 
-/// What a map knows of a leaf beyond its points.
+/// Data of a leaf.
 template <Scalar T>
 struct EyePathLeaf {
-    std::array<T, 3> middle, half; ///< of its box, relative to the tree's origin, and how far it reaches from there
-    NormalCone<T> normals;         ///< of its vertices: one test for a whole leaf that faces a photon
+    std::array<T, 3> middle, half; ///< middle of its box, relative to the tree's origin, and half of its extents
+    NormalCone<T> normals;         ///< of its vertices: tests a whole leaf against a photon's direction at once
     T spacing; ///< of neighbouring vertices, world units: one pixel's footprint on the surface; 0 if unknown
 };
 
-/// What a map knows of a node of the tree, of all vertices below it.
+/// Data of a node, for all vertices below it.
 template <Scalar T>
 struct EyePathNode {
     NormalCone<T> normals;
-    std::array<T, 3> reach; ///< how far their pixels' footprints extend beyond them, along each axis
+    std::array<T, 3> reach; ///< how far the vertices' pixel footprints extend beyond the vertices, along each axis
 };
 
 namespace detail {
@@ -34,7 +34,7 @@ template <Scalar T>
     EyePathLeaf<T> leaf{{}, {}, cone_about(normals), spacing};
     for (std::size_t axis = 0; axis < 3; ++axis) {
         leaf.middle[axis] = T(0.5) * box.low[axis] + T(0.5) * box.high[axis];
-        // From the middle as it was rounded: else a vertex far from the origin may lie outside.
+        // Computed from the rounded middle; otherwise a vertex far from the origin could lie outside.
         leaf.half[axis] = (std::max)(box.high[axis] - leaf.middle[axis], leaf.middle[axis] - box.low[axis]);
     }
     return leaf;
@@ -42,13 +42,13 @@ template <Scalar T>
 
 /// The bounds of the components of a leaf's normals.
 ///
-/// @param components  by slot, those that repeat the last one included
+/// @param components  by slot, including the slots that repeat the last vertex
 template <Scalar T>
 [[nodiscard]] Box<T> normal_bounds(const std::array<std::vector<T>, 3>& components, const TreeLeaf& leaf) {
     Box<T> box;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const T* const component = components[axis].data() + leaf.first;
-        std::array<T, leaf_lanes> low, high; // of every sixteenth slot: as many at once as there are lanes
+        std::array<T, leaf_lanes> low, high; // of every sixteenth slot, so that all lanes are computed at once
         std::copy_n(component, leaf_lanes, low.begin());
         high = low;
         for (std::size_t first = leaf_lanes; first < leaf.size; first += leaf_lanes) {
@@ -65,16 +65,16 @@ template <Scalar T>
     return box;
 }
 
-/// How far a square extends along each axis from its middle, at most, whichever way it is turned.
+/// How far a square extends at most from its middle along each axis, however it is rotated in its plane.
 ///
-/// @param normals  bounds of what its normal may be
+/// @param normals  bounds of its normal
 template <Scalar T>
 [[nodiscard]] std::array<T, 3> square_reach(const Box<T>& normals, const T& side) {
     std::array<T, 3> reach;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const T low = normals.low[axis], high = normals.high[axis];
         const T least = low > T(0) ? low : high < T(0) ? -high : T(0); // of the normal along the axis
-        // Half of a diagonal, as far as it may point along the axis; normals are of unit length to a hundredth.
+        // Half a diagonal times the largest sine between axis and normal. Normals have unit length to within 1%.
         const T across2 = T(1) - square((std::min)(least, T(1)));
         reach[axis] = side * sqrt(T(0.5) * across2 + T(16) * std::numeric_limits<T>::epsilon());
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  An eye path map, as whoever adds light to it sees it: pointers alone, which a device can be given.
+/// @file  A view of an eye path map: only pointers, which can be copied to a device.
 #pragma once
 
 #include "nephroid/receiver/eye_path_node.hpp"
@@ -8,20 +8,20 @@
 
 namespace nephroid {
 
-/// The eye path vertices of an EyePathMap. Trivially copyable, and refers to arrays that the map owns, or to copies of
-/// them elsewhere.
+/// The eye path vertices of an EyePathMap. Trivially copyable. It refers to arrays that the map owns, or to copies of
+/// them on a device.
 template <Vector3 V>
 class EyePathView {
 public:
     using T = scalar_t<V>;
     using vector = V;
 
-    /// What there is to copy for a map that light is added to elsewhere, beside the tree's own arrays.
+    /// The arrays of the map, in addition to those of the tree: copy them to use the map on a device.
     struct Arrays {
         std::span<const EyePathLeaf<T>> leaves;
         std::span<const EyePathNode<T>> nodes;  ///< as the tree's
         std::array<const T*, 3> normals;        ///< by slot
-        std::array<const T*, 7> footprint_rows; ///< by slot: u, v, inverse area; null where there are none
+        std::array<const T*, 7> footprint_rows; ///< by slot: u, v, inverse area; null if vertices have no footprints
         T diagonal;
     };
 
@@ -39,13 +39,13 @@ public:
     /// The diagonal of the bounds of all vertices, world units.
     [[nodiscard]] constexpr T diagonal() const { return arrays_.diagonal; }
 
-    /// The spacing of the vertices around a world position: one pixel's footprint on the surface there. 0 when the
-    /// map is empty or all of its vertices coincide.
+    /// The spacing of the vertices around a world position: one pixel's footprint on the surface there. 0 if the map is
+    /// empty or all of its vertices coincide.
     [[nodiscard]] T spacing_at(const V& position) const {
         return tree_.empty() ? T(0) : leaf(tree_.nearest_leaf(tree_.relative(position))).spacing;
     }
 
-    /// Whether vertices have pixel footprints of their own, not squares of the spacing.
+    /// Whether the user gave pixel footprints; otherwise they are squares of the spacing.
     [[nodiscard]] constexpr bool has_footprints() const { return arrays_.footprint_rows[0] != nullptr; }
 
     /// The pixel footprint of the vertex in a slot of a leaf.
@@ -57,8 +57,8 @@ public:
         return {make_vector<V>(row(0), row(1), row(2)), make_vector<V>(row(3), row(4), row(5)), row(6)};
     }
 
-    /// Calls visit(leaf) for every leaf whose vertices may lie in the volume, in leaf order. A volume that asks for
-    /// normals (FacingVolume) is spared the leaves where no vertex has such a one.
+    /// Calls visit(leaf) for every leaf whose vertices may lie in the volume, in leaf order. If the volume is a
+    /// FacingVolume, leaves in which no vertex faces it are skipped.
     ///
     /// @param volume  relative to the tree's origin
     template <class Q, class Visit>
@@ -71,8 +71,8 @@ public:
             tree_.visit_leaves(volume, visit);
     }
 
-    /// Calls visit(leaf) for every leaf of which some vertex's pixel footprint may meet the volume, in leaf order; by
-    /// normals as above.
+    /// Calls visit(leaf) for every leaf with a vertex whose pixel footprint may overlap the volume, in leaf order, with
+    /// normals treated as above.
     template <class Q, class Visit>
         requires detail::MustBeVolume<Q, T>
     void visit_footprints(const Q& volume, Visit&& visit) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Pixel footprints for a renderer that does not have them: from what the neighbouring pixels see.
+/// @file  Estimates pixel footprints from the vertices of neighbouring pixels, for renderers that do not know them.
 #pragma once
 
 #include "nephroid/receiver/projection.hpp"
@@ -36,24 +36,27 @@ private:
     std::vector<std::size_t> begin_, vertices_;
 };
 
-/// Whether two vertices may lie on one smooth surface. Across a step in depth the way between them leaves both tangent
-/// planes on the same side; on a smooth surface it leaves one above and one below, and their mean hardly at all.
+/// Whether two vertices may lie on one smooth surface. Across a step in depth, the segment between them leaves both
+/// tangent planes on the same side. On a smooth surface it leaves one above and the other below, and hardly leaves the
+/// mean of the two planes.
+///
+/// @param way  from one vertex to the other
 template <Vector3 V>
 [[nodiscard]] bool are_joined(const V& way, const V& normal, const V& other_normal) {
     using T = scalar_t<V>;
     const T off2 = square(T(0.5) * dot(way, V(normal + other_normal)));
     const T bend2 = length2(V(normal - other_normal));
     return dot(normal, other_normal) > T(0.2) &&
-           off2 <= (std::max)(T(0.01), T(0.0625) * bend2) * length2(way); // a tenth, or a quarter of the bend
+           off2 <= (std::max)(T(0.01), T(0.0625) * bend2) * length2(way); // a slope of 0.1, or a quarter of the bend
 }
 
-/// One side of a footprint, from its vertex to the next one and from the one before.
+/// One side of a footprint, from the steps to the vertices of the pixels before and after.
 template <Vector3 V>
 [[nodiscard]] std::optional<V> side_between(const std::optional<V>& before, const std::optional<V>& after) {
     using T = scalar_t<V>;
     if (!before || !after)
         return before ? before : after;
-    // One that is much longer than the other has crossed an edge that the normals do not show.
+    // A step that is much longer than the other has crossed an edge that the normals do not show.
     const T before2 = length2(*before), after2 = length2(*after);
     if (before2 > T(9) * after2 || after2 > T(9) * before2)
         return before2 < after2 ? before : after;
@@ -61,18 +64,19 @@ template <Vector3 V>
 }
 } // namespace detail
 
-/// Footprints of a film's pixels, from the ways to what the pixels beside them see: half the way from the one before to
-/// the one behind, in the vertex's tangent plane. Neighbours on other surfaces are left out, by their normals and by
-/// steps in depth; where one side is left, that is taken, and where all of a direction are, as much across the other
-/// one. Second order in the pixel's angle, where the camera's own rays (`footprint_from_rays`) are exact.
+/// Estimates the footprints of a film's pixels: along each axis of the film, half the step from the vertex of the pixel
+/// before to that of the pixel after, projected onto the vertex's tangent plane. Neighbours on other surfaces are left
+/// out; normals and steps in depth show them. If only one neighbour along an axis is left, the step to it is used. If
+/// none is left, the side is as long as the other one and perpendicular to it. The error is of second order in the
+/// pixel's angle; the camera's own rays (`footprint_from_rays`) are exact.
 ///
-/// For eye paths through the pixels' centres. Several vertices in a pixel may be those of a path that glass has split,
-/// but not of several samples, between which there is less than a pixel.
+/// Eye paths must go through the pixels' centres. A pixel may have several vertices if glass splits its path, but not
+/// because of several samples, since these are less than a pixel apart.
 ///
-/// @param vertices       as EyePathMap takes them
+/// @param vertices       as for EyePathMap
 /// @param width, height  of the film, pixels
 /// @param pixel          projection to y * width + x
-/// @return  beside the vertices, for EyePathMap; both sides zero (not known) where no neighbour is on the same surface
+/// @return  one for each vertex, for EyePathMap; both sides are zero (unknown) if no neighbour is on the same surface
 /// Throws std::invalid_argument naming a vertex whose pixel is not on the film.
 template <std::ranges::random_access_range Vertices, class Pixel, class Position, class Normal>
 [[nodiscard]] auto footprints_from_film(const Vertices& vertices, std::size_t width, std::size_t height, Pixel pixel,
@@ -94,7 +98,7 @@ template <std::ranges::random_access_range Vertices, class Pixel, class Position
     for (std::size_t i = 0; i < count; ++i) {
         const V at = std::invoke(position, detail::vertex_at(vertices, i));
         const V n = std::invoke(normal, detail::vertex_at(vertices, i));
-        // To the nearest vertex that another pixel sees on the same surface, in the tangent plane.
+        // The step to the nearest of another pixel's vertices that is on the same surface, in the tangent plane.
         const auto way_to = [&](std::size_t neighbour, bool is_on_film) {
             std::optional<V> way;
             if (is_on_film)

@@ -7,7 +7,9 @@
 
 namespace nephroid::detail {
 
-/// From the vertices around the leaf's middle, its own and its neighbours', so that leaves of any shape will do.
+/// The spacing of the vertices around a leaf's middle. The vertices of neighbouring leaves are included, so that the
+/// leaf may have any shape.
+///
 /// @return  world units; 0 if they all coincide
 template <Vector3 V>
 [[nodiscard]] scalar_t<V> leaf_spacing(const PointTreeView<V>& tree, const TreeLeaf& leaf) {
@@ -27,7 +29,7 @@ template <Vector3 V>
     return point_spacing<T>({around[0].data(), count}, {around[1].data(), count}, {around[2].data(), count});
 }
 
-/// A leaf about which all vertices coincide (0) takes the median of the others.
+/// Replaces unknown spacings (0) by the median of the known ones.
 template <Scalar T>
 void fill_unknown_spacings(std::vector<T>& spacings) {
     std::vector<T> known;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The part of a surface that a pixel sees about an eye path vertex: a parallelogram.
+/// @file  The part of a surface that a pixel sees around an eye path vertex: a parallelogram.
 #pragma once
 
 #include "nephroid/vector/frame.hpp"
@@ -7,19 +7,19 @@
 
 namespace nephroid {
 
-/// The places x + a u + b v with |a| and |b| up to ½, about a vertex x: what its pixel sees of the surface. Both zero
-/// where it is not known.
+/// The part of a surface that a pixel sees: the points x + a u + b v with |a|, |b| <= ½ around a vertex x. Both sides
+/// are zero if it is unknown.
 template <Vector3 V>
 struct PixelFootprint {
     V u, v; ///< sides, in the surface's tangent plane, world units
 };
 
-/// A footprint as light is measured on it: a place x + d in the vertex's plane lies at (u · d, v · d), which is the
-/// square from −½ to ½ for the footprint. The dual basis of its sides.
+/// The dual basis of a footprint's sides. A point x + d in the vertex's plane has the coordinates (u · d, v · d);
+/// those of the footprint are the square from −½ to ½.
 template <Vector3 V>
 struct FootprintRows {
     V u, v;                   ///< 1 / world unit
-    scalar_t<V> inverse_area; ///< of the parallelogram; 0, as the rows are, where there is none
+    scalar_t<V> inverse_area; ///< of the parallelogram; 0, as the rows are, if there is none
 };
 
 /// A ray of a camera; its direction may be of any length.
@@ -29,7 +29,7 @@ struct PixelRay {
 };
 
 namespace detail {
-/// The footprint's dual basis, worked out in the next wider scalar. Not finite where the sides span no area.
+/// The footprint's dual basis, computed in the next wider scalar. Not finite if the sides span no area.
 template <Vector3 V>
 [[nodiscard]] FootprintRows<V> rows_of(const PixelFootprint<V>& footprint) {
     using W = wider_t<scalar_t<V>>;
@@ -39,7 +39,7 @@ template <Vector3 V>
             scalar_t<V>(W(1) / sqrt(area2))};
 }
 
-/// Those of a square of this side, in any direction; all 0 for a side of 0.
+/// The dual basis of a square with a given side, in an arbitrary rotation; all 0 for a side of 0.
 template <Vector3 V>
 [[nodiscard]] FootprintRows<V> square_rows(const V& normal, const scalar_t<V>& side) {
     using T = scalar_t<V>;
@@ -56,14 +56,15 @@ template <Vector3 V>
     return largest_component(footprint.u) == T(0) && largest_component(footprint.v) == T(0);
 }
 
-/// Where a ray meets a plane, relative to a place in it; how far along the ray, in its direction's lengths.
+/// The intersection of a ray with a plane, relative to a point of the plane, and its distance along the ray in lengths
+/// of the ray's direction.
 template <Vector3 V>
 struct PlaneMeeting {
     Wide3<V> offset;
     wider_t<scalar_t<V>> distance;
 
-    PlaneMeeting(const PixelRay<V>& ray, const V& place, const V& normal) {
-        const Wide3<V> n = widened(normal), origin = widened(ray.origin), at = widened(place),
+    PlaneMeeting(const PixelRay<V>& ray, const V& point, const V& normal) {
+        const Wide3<V> n = widened(normal), origin = widened(ray.origin), at = widened(point),
                        way = widened(ray.direction);
         const Wide3<V> back{origin[0] - at[0], origin[1] - at[1], origin[2] - at[2]};
         distance = -wide_dot(back, n) / wide_dot(way, n);
@@ -72,13 +73,13 @@ struct PlaneMeeting {
 };
 } // namespace detail
 
-/// The footprint of a pixel that sees a vertex directly: where the rays through the middles of its four sides meet the
-/// vertex's tangent plane. Neighbouring pixels on one plane have footprints that fill it without gaps, but for what
-/// perspective bends.
+/// The footprint of a pixel that sees a vertex directly, from the intersections of the vertex's tangent plane with the
+/// rays through the middles of the pixel's four sides. On a plane, the footprints of neighbouring pixels fit together
+/// without gaps, except for the curvature of perspective.
 ///
 /// @param position, normal          of the vertex
 /// @param left, right, below, above  through the pixel's sides
-/// @return  both sides zero, for not known, where one of the rays does not meet the plane ahead: at the horizon
+/// @return  both sides are zero (unknown) if one of the rays does not meet the plane, as at the horizon
 template <Vector3 V>
 [[nodiscard]] PixelFootprint<V>
 footprint_from_rays(const V& position, const std::type_identity_t<V>& normal,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How a renderer's own vertices are read: by projections, each checked with a sentence.
+/// @file  Projections that read a renderer's own vertices; an error in words says what is wrong with one.
 #pragma once
 
 #include "nephroid/receiver/pixel_footprint.hpp"
@@ -10,8 +10,8 @@
 
 namespace nephroid {
 
-/// Given for a projection to pixel footprints: they are not known, and each is taken for a square of the vertices'
-/// spacing, turned in any way.
+/// Stands for a projection to pixel footprints if they are unknown: each is then a square of the vertices' spacing, in
+/// an arbitrary rotation.
 struct FootprintsFromSpacing {};
 
 namespace detail {
@@ -22,7 +22,7 @@ template <class Vertices, class Projection, class Result>
 concept ProjectsTo = CanProject<Vertices, Projection> &&
     std::convertible_to<std::invoke_result_t<Projection&, std::ranges::range_reference_t<const Vertices>>, Result>;
 
-/// Pixel footprints come by a projection, as a range beside the vertices, or not at all.
+/// Pixel footprints are given by a projection, as a range with one for each vertex, or not at all.
 template <class Vertices, class Footprint, class V>
 concept GivesFootprints = std::same_as<Footprint, FootprintsFromSpacing> ||
     ProjectsTo<Vertices, const Footprint, PixelFootprint<V>> ||
@@ -63,7 +63,7 @@ template <class Vertices>
     return std::ranges::begin(vertices)[std::ranges::range_difference_t<const Vertices>(i)];
 }
 
-/// @param footprint  a projection of the vertices, or a range beside them
+/// @param footprint  a projection of the vertices, or a range with one for each
 template <class Vertices, class Footprint>
 [[nodiscard]] auto footprint_of(const Vertices& vertices, const Footprint& footprint, std::size_t i) {
     if constexpr (std::ranges::range<const Footprint>)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where sums go: the renderer's film.
+/// @file  A sink: receives the sums, for the renderer's film.
 #pragma once
 
 #include "nephroid/emission/flux.hpp"
@@ -9,8 +9,8 @@
 
 namespace nephroid {
 
-/// `sink(vertex, value)`: takes what has been summed up at an eye path vertex, by the index in the renderer's own
-/// array, and adds it to the vertex's pixel. Called from one thread, once for each vertex.
+/// `sink(vertex, value)` receives the sum at an eye path vertex, given by its index in the renderer's own array, and
+/// adds it to the vertex's pixel. Called from one thread, once for each vertex.
 ///
 /// ```cpp
 /// sums.for_each([&](std::size_t vertex, const Colour& irradiance) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How far apart neighbouring points of a surface's sampling are.
+/// @file  Estimates the spacing of points that sample a surface.
 #pragma once
 
 #include "nephroid/tree/smallest.hpp"
@@ -16,10 +16,10 @@
 namespace nephroid {
 
 namespace detail {
-/// A few points, an array for each coordinate, so that loops over them are vectorised.
+/// A small set of points, with an array for each coordinate so that loops over them are vectorised.
 template <Scalar T>
 struct FewPoints {
-    /// Those in the same place count once. Takes time in the square of their number.
+    /// Coincident points count once. The time is quadratic in the number of points.
     FewPoints(std::span<const T> px, std::span<const T> py, std::span<const T> pz)
         : room(4 * px.size()), x(room.data()), y(x + px.size()), z(y + px.size()), distance2(z + px.size()),
           size(px.size()) {
@@ -36,16 +36,18 @@ struct FewPoints {
         }
     }
 
-    FewPoints(const FewPoints&) = delete; // points into its own room
+    FewPoints(const FewPoints&) = delete; // has pointers into its own memory
     FewPoints& operator=(const FewPoints&) = delete;
 
-    /// Takes the squared distances of all points to a place.
+    /// Computes the squared distances of all points to a given one.
     void measure(T px, T py, T pz) {
         for (std::size_t i = 0; i < size; ++i)
             distance2[i] = square(x[i] - px) + square(y[i] - py) + square(z[i] - pz);
     }
 
-    /// The nearest by the distances taken last, as many as there is room for; at most `size`.
+    /// The nearest points by the distances measured last.
+    ///
+    /// @param found  gets their indices; its size is the number wanted, at most `size`
     void nearest(std::span<std::size_t> found) const {
         T high(0);
         for (std::size_t i = 0; i < size; ++i)
@@ -60,16 +62,16 @@ struct FewPoints {
         }
     }
 
-    /// For each of N points the sum of the squared distances to those that are nearest to it, itself among them.
+    /// For each of N points, the sum of the squared distances to its nearest points, including itself.
     ///
-    /// @param wanted  how many, at most `most`
+    /// @param wanted  number of nearest points, at most `most`
     template <std::size_t most, std::size_t N>
     [[nodiscard]] std::array<T, N> sums_of_nearest(const std::array<std::size_t, N>& centres,
                                                    std::size_t wanted) const {
         std::array<T, N> cx, cy, cz;
         for (std::size_t k = 0; k < N; ++k)
             cx[k] = x[centres[k]], cy[k] = y[centres[k]], cz[k] = z[centres[k]];
-        // Every point sinks into the N ascending lists at once, by exchanges without a branch.
+        // Inserts every point into the N sorted lists at once, by exchanges without branches.
         std::array<std::array<T, N>, most> lists;
         for (auto& places : lists)
             places.fill(std::numeric_limits<T>::infinity());
@@ -78,20 +80,20 @@ struct FewPoints {
             NEPHROID_NOT_UNROLLED
             for (std::size_t k = 0; k < N; ++k)
                 sinking[k] = square(x[i] - cx[k]) + square(y[i] - cy[k]) + square(z[i] - cz[k]);
-            for (std::size_t place = 0; place < wanted; ++place) {
-                const std::array<T, N> own = sinking, other = lists[place];
+            for (std::size_t rank = 0; rank < wanted; ++rank) {
+                const std::array<T, N> own = sinking, other = lists[rank];
                 NEPHROID_NOT_UNROLLED
                 for (std::size_t k = 0; k < N; ++k)
-                    lists[place][k] = own[k] < other[k] ? own[k] : other[k];
+                    lists[rank][k] = own[k] < other[k] ? own[k] : other[k];
                 NEPHROID_NOT_UNROLLED
                 for (std::size_t k = 0; k < N; ++k)
                     sinking[k] = own[k] < other[k] ? other[k] : own[k];
             }
         }
         std::array<T, N> sums{};
-        for (std::size_t place = 0; place < wanted; ++place)
+        for (std::size_t rank = 0; rank < wanted; ++rank)
             for (std::size_t k = 0; k < N; ++k)
-                sums[k] = sums[k] + lists[place][k];
+                sums[k] = sums[k] + lists[rank][k];
         return sums;
     }
 
@@ -101,7 +103,7 @@ struct FewPoints {
     std::array<T, 3> middle;
 
 private:
-    /// Points in the same place are equally far from any; others hardly ever.
+    /// Whether two points have the same distance: coincident points have, others hardly ever.
     [[nodiscard]] bool some_equally_far() const {
         int met = 0;
         for (std::size_t i = 1; i < size; ++i)
@@ -123,8 +125,8 @@ private:
     }
 };
 
-/// How many points near the middle of a cloud are measured, and the most neighbours of each. (nvcc 12 does not take
-/// constants of a function template as the size of an array.)
+/// How many points near the middle of a cloud are measured, and how many neighbours of each at most. (Not in the
+/// function below, because nvcc 12 does not accept constants of a function template as the size of an array.)
 inline constexpr std::size_t spacing_probes = 4, spacing_neighbours = 8;
 
 /// Sorts four numbers, none of them NaN. g++ 14 and later warn of array bounds where std::sort gets so few.
@@ -143,14 +145,14 @@ void sort_four(std::array<T, 4>& numbers) {
 }
 } // namespace detail
 
-/// The spacing p of a small cloud of points that sample a surface, such that a square lattice of side p gives p:
-/// from the distances to their nearest neighbours of the few points that lie nearest to the cloud's middle, whose
-/// neighbourhoods are whole.
+/// The spacing p of a small cloud of points that sample a surface. For a square lattice it is the lattice's side. It is
+/// computed from the few points nearest to the cloud's middle, because their neighbours are all in the cloud, and from
+/// the distances of these points to their nearest neighbours.
 ///
-/// The neighbours of a lattice point are at p (four), √2 p (four), so the mean squared distance to the nearest eight
-/// is 1.5 p²; a lattice stretched by foreshortening gives a spacing between its two sides, a random sampling of
-/// density ρ about 0.95/√ρ. With fewer points the neighbours at hand are taken, by the same rule. Points in the
-/// same place count once.
+/// A lattice point has four neighbours at p and four at √2 p, so the mean squared distance to the nearest eight is
+/// 1.5 p². A lattice stretched by foreshortening gives a spacing between its two sides, and a random sampling of
+/// density ρ about 0.95/√ρ. With fewer points, the same rule is applied to the neighbours there are. Coincident
+/// points count once.
 ///
 /// @return  world units; 0 if all points coincide or there is only one
 template <Scalar T>
@@ -167,7 +169,7 @@ template <Scalar T>
     points.nearest(std::span(centres).first(probes));
     std::array<T, detail::spacing_probes> spacing2 =
         points.template sums_of_nearest<detail::spacing_neighbours + 1>(centres, neighbours + 1);
-    for (std::size_t k = 0; k < spacing2.size(); ++k) // those that are not measured come last
+    for (std::size_t k = 0; k < spacing2.size(); ++k) // points that were not measured are sorted last
         spacing2[k] = k < probes ? spacing2[k] / lattice : std::numeric_limits<T>::infinity();
     detail::sort_four(spacing2);
     return sqrt(T(0.5) * (spacing2[(probes - 1) / 2] + spacing2[probes / 2]));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The sums: what light adds up to at each eye path vertex, whatever kind of light it is.
+/// @file  The sums: light of any kind, added up at each eye path vertex.
 #pragma once
 
 #include "nephroid/receiver/eye_path_map.hpp"
@@ -15,13 +15,13 @@
 
 namespace nephroid {
 
-/// The vertices' response does not depend on where light comes from (diffuse surfaces): what is summed up is
-/// irradiance, which the caller multiplies with throughput · albedo / π.
+/// The response of diffuse surfaces, which does not depend on where light comes from. The sums are irradiance; the
+/// caller multiplies them by throughput · albedo / π.
 struct Irradiance {};
 
-/// Another response: response(vertex index, direction of the photon's flight) -> a factor for the photon's irradiance
-/// there: the BRDF f_r(x, −ω_p, ω) times the path's throughput. What is summed up is then radiance. Called from
-/// several threads at once.
+/// Any other response: response(vertex index, direction of the photon's flight) returns a factor for the photon's
+/// irradiance, which is the BRDF f_r(x, −ω_p, ω) times the path's throughput. The sums are then radiance. Called
+/// from several threads at once.
 ///
 /// ```cpp
 /// auto sums = nephroid::sums<Colour>(map, [&](std::size_t vertex, const Vec3& direction) {
@@ -47,8 +47,8 @@ template <class R, class V, class F>
 concept MustRespond = Response<R, V, F> || explain_response<R, V, F>();
 } // namespace detail
 
-/// What light has added up to at the vertices of an eye path map. Every kind of light adds to the same sums, as often
-/// as is wanted. Made by `nephroid::sums`. Memory: one F for each slot of the map's tree.
+/// The sums of light at the vertices of an eye path map. Every kind of light can be added to the same sums, any number
+/// of times. Made by `nephroid::sums`. Memory: one F for each slot of the map's tree.
 ///
 /// @tparam V  vector
 /// @tparam F  flux; the sums are F per world unit squared (times the response)
@@ -60,14 +60,14 @@ public:
     using vector = V;
     using flux_type = F;
 
-    /// @param map  is referred to, and must outlive the sums
+    /// @param map  kept by reference; must outlive the sums
     explicit Sums(const EyePathMap<V>& map, R response = {}) : map_(&map), response_(std::move(response)) { clear(); }
     explicit Sums(const EyePathMap<V>&&, R = {}) = delete; // would refer to a temporary
 
     [[nodiscard]] const EyePathMap<V>& map() const { return *map_; }
     [[nodiscard]] const R& response() const { return response_; }
 
-    /// Forgets all light.
+    /// Sets all sums to zero.
     void clear() { by_slot_.assign(map_->tree().slots(), flux_traits<F>::zero()); }
 
     /// Calls sink(vertex index, sum) once for every vertex, in the map's order, with the irradiance (or radiance) of
@@ -80,9 +80,9 @@ public:
                 sink(std::size_t(map_->tree().index(slot)), by_slot_[slot]);
     }
 
-    /// The sums at the vertices of one leaf of the map's tree, for who adds light to them: slot i of the tree is at
-    /// i − leaf.first. Behind the last vertex the leaf is filled up to whole lanes (`PointTree::lanes`): what is
-    /// added there is never read. Different leaves may be added to by different threads.
+    /// The sums at the vertices of one leaf of the map's tree, to add light to. Slot i of the tree is at i −
+    /// leaf.first. After the last vertex the leaf is padded to whole lanes (`PointTree::lanes`); what is added there is
+    /// never read. Different threads may add to different leaves.
     [[nodiscard]] std::span<F> of_leaf(std::uint32_t leaf) { return {by_slot_.data() + first(leaf), size(leaf)}; }
     [[nodiscard]] std::span<const F> of_leaf(std::uint32_t leaf) const {
         return {by_slot_.data() + first(leaf), size(leaf)};
@@ -106,7 +106,7 @@ private:
 /// ```
 ///
 /// @tparam F   the light's flux type
-/// @param map  is referred to, and must outlive the sums
+/// @param map  kept by reference; must outlive the sums
 template <class F, class V, class R = Irradiance>
 [[nodiscard]] Sums<V, F, R> sums(const EyePathMap<V>& map, R response = {}) {
     return Sums<V, F, R>(map, std::move(response));

@@ -11,18 +11,18 @@
 
 namespace nephroid {
 
-/// An axis-aligned box relative to a tree's origin, closed: it may be flat. Empty where low > high.
+/// An axis-aligned, closed box relative to a tree's origin. It may be flat, and is empty if low > high.
 template <Scalar T>
 struct Box {
     std::array<T, 3> low, high;
 
     [[nodiscard]] constexpr bool overlaps(const Box& other) const {
-        // Bitwise: the three axes are tested without a branch each.
+        // Bitwise operators, so that the three axes are tested without branches.
         return bool(int(low[0] <= other.high[0]) & int(other.low[0] <= high[0]) & int(low[1] <= other.high[1]) &
                     int(other.low[1] <= high[1]) & int(low[2] <= other.high[2]) & int(other.low[2] <= high[2]));
     }
 
-    /// Grows to hold another box as well.
+    /// Grows to contain another box.
     constexpr void add(const Box& other) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             low[axis] = (std::min)(low[axis], other.low[axis]);
@@ -32,7 +32,7 @@ struct Box {
 };
 
 namespace detail {
-/// Holds nothing; the first box that is added to it replaces it.
+/// The empty box; adding a box to it gives that box.
 template <Scalar T>
 [[nodiscard]] constexpr Box<T> empty_box() {
     constexpr T infinity = std::numeric_limits<T>::infinity();

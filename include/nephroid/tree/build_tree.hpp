@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Building a kd-tree: nanoflann divides the points into thousands, and these are divided on in contiguous
+/// @file  Builds a kd-tree: nanoflann divides the points down to thousands, and these are divided further in contiguous
 ///        memory.
 #pragma once
 
@@ -13,15 +13,15 @@ namespace nephroid::detail {
 
 /// A tree's nodes, and its points in leaf order.
 ///
-/// nanoflann reads points where they lie, through a permutation: fast while there are few nodes, and slow for the many
-/// at the bottom. From `coarse_size` points on they are copied out and divided here (DividedPoints), into leaves that
-/// are as full as can be.
+/// nanoflann accesses points through a permutation, which is fast for the few upper nodes and slow for the many at the
+/// bottom. So nodes of `coarse_size` points and fewer are copied and divided here (DividedPoints), into leaves that are
+/// as full as possible.
 template <Scalar T>
 class TreeBuilder {
 public:
     /// @param cloud      not empty, finite
-    /// @param leaf_size  points in a leaf at most
-    /// @param lanes      leaves start at multiples of this many slots, and are filled up by repeating their last point
+    /// @param leaf_size  largest number of points in a leaf
+    /// @param lanes      leaves start at multiples of this many slots; they are padded by repeating their last point
     TreeBuilder(const PointCloud<T>& cloud, std::size_t leaf_size, std::size_t lanes)
         : leaf_size_(leaf_size), lanes_(lanes), points_(leaf_size) {
         const Index tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(coarse_size));
@@ -49,12 +49,12 @@ private:
     static constexpr std::size_t coarse_size = 16384;
     static constexpr std::size_t none = (std::numeric_limits<std::size_t>::max)();
 
-    /// Depth-first with a stack of its own: clustered points make trees deeper than a call stack should be.
+    /// Goes depth-first with an explicit stack, because clustered points make trees too deep for recursion.
     template <class Order, class Node>
     void lay_out(const PointCloud<T>& cloud, const Order& order, const Node* root) {
         struct Pending {
-            const Node* node;       ///< nanoflann's, or none:
-            std::size_t begin, end; ///< these points
+            const Node* node;       ///< nanoflann's; null for a range of points
+            std::size_t begin, end; ///< the range of points
             std::size_t parent;
         };
         std::vector<Pending> pending{{root, 0, 0, none}};
@@ -101,7 +101,7 @@ private:
         }
     }
 
-    /// Children follow their parents: one pass backwards makes the upper boxes and the skips.
+    /// Computes the inner nodes' boxes and skips. Children follow their parents, so one pass backwards suffices.
     void skip_and_bound() {
         for (std::size_t i = nodes.size(); i-- > 0;) {
             nodes[i].skip = (std::max)(nodes[i].skip, std::uint32_t(i + 1));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Convex volumes for a tree's search: what lies within a few planes and a box.
+/// @file  Convex volumes for searching a tree: the intersection of a few half spaces and a box.
 #pragma once
 
 #include "nephroid/tree/volume.hpp"
@@ -14,8 +14,8 @@ struct HalfSpace {
     T offset;
 };
 
-/// The places in a box and in all of N half spaces. A tree's box is left out where it lies beside the box or beyond
-/// one of the planes, rounding allowed for: few that the volume misses are then met.
+/// The intersection of a box and N half spaces. A tree's box overlaps it unless it lies outside the box or beyond one
+/// of the planes, with a margin for rounding. So few boxes are reported that do not overlap the volume.
 template <Scalar T, std::size_t N>
 struct ConvexVolume {
     Box<T> box; ///< holds the whole volume, relative to the tree's origin
@@ -24,7 +24,7 @@ struct ConvexVolume {
     [[nodiscard]] constexpr bool overlaps(const Box<T>& other) const {
         int overlap = int(box.overlaps(other));
         for (const HalfSpace<T>& plane : planes) {
-            // The corner that lies furthest inwards; its terms' size bounds the rounding of their sum.
+            // The innermost corner of the box. The size of the terms bounds the rounding of their sum.
             T least = -plane.offset, size = abs(plane.offset);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const T low = plane.normal[axis] * other.low[axis], high = plane.normal[axis] * other.high[axis];
@@ -53,21 +53,21 @@ template <Vector3 V>
     return {components(normal), offset};
 }
 
-/// Grown so far that rounding in its making leaves nothing outside.
+/// A box around a ball, enlarged by as much as rounding could leave outside.
 template <Scalar T>
-[[nodiscard]] Box<T> box_about(const Triple<T>& place, T radius) {
+[[nodiscard]] Box<T> box_about(const Triple<T>& position, T radius) {
     Box<T> box;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const T grown = radius + T(4) * std::numeric_limits<T>::epsilon() * (radius + abs(place[axis]));
-        box.low[axis] = place[axis] - grown;
-        box.high[axis] = place[axis] + grown;
+        const T grown = radius + T(4) * std::numeric_limits<T>::epsilon() * (radius + abs(position[axis]));
+        box.low[axis] = position[axis] - grown;
+        box.high[axis] = position[axis] + grown;
     }
     return box;
 }
 } // namespace detail
 
-/// All that is no further from a triangle's plane than `thickness`, and beside none of its edges: a flat prism. A
-/// triangle without an area (its corners in a line) is bounded by its box alone.
+/// A flat prism: all points within `thickness` of a triangle's plane that project into the triangle. If the triangle
+/// has no area (collinear corners), only the box bounds the volume.
 ///
 /// @param a, b, c    corners, relative to the tree's origin, in either order
 /// @param thickness  >= 0, to either side
@@ -81,9 +81,9 @@ template <Vector3 V>
     volume.box.add(detail::box_about(detail::components(c), thickness));
     const V across = cross(V(b - a), V(c - a));
     if (!(largest_component(across) > T(0)))
-        return volume; // half spaces of the normal 0: everything is in them
+        return volume; // half spaces with normal 0 contain everything
     const V n = direction_of(across);
-    // The normal is as exact as the edges, by as much worse as the triangle is more slender than a square.
+    // The normal's relative error is that of the edges times the triangle's slenderness.
     const T edge = (std::max)(largest_component(V(b - a)), largest_component(V(c - a)));
     const T slenderness = T(1) + square(edge) / largest_component(across);
     const T slack = T(64) * std::numeric_limits<T>::epsilon() * (largest_component(a) + edge + thickness) * slenderness;
@@ -96,8 +96,8 @@ template <Vector3 V>
     return volume;
 }
 
-/// The frustum about a flight whose radius grows or shrinks evenly: it holds every ball about a place of the flight
-/// with the radius there, and little besides. Six planes, of which four touch the balls at the ends.
+/// The frustum around a flight whose radius changes linearly: it contains every ball around a point of the flight with
+/// the radius there, and little more. It has six planes; four of them touch the balls at the ends.
 ///
 /// @param from, to                 relative to the tree's origin
 /// @param radius_from, radius_to   >= 0
@@ -110,12 +110,12 @@ template <Vector3 V>
     const V way(to - from);
     const T distance = length(way), narrowing = radius_from - radius_to;
     if (!(distance > abs(narrowing)))
-        return volume; // one ball holds the other one, and the box is all that bounds it
+        return volume; // one ball contains the other, and only the box bounds the volume
     const V ahead = T(1) / distance * way;
     const V helper =
         abs(vector_traits<V>::x(ahead)) < T(0.6) ? make_vector<V>(T(1), T(0), T(0)) : make_vector<V>(T(0), T(1), T(0));
     const V right = normalize(cross(ahead, helper)), up = cross(right, ahead);
-    // A plane that touches both balls has a normal whose part along the flight is this.
+    // The component along the flight of the normal of a plane that touches both balls.
     const T sine = narrowing / distance, cosine = sqrt((T(1) - sine) * (T(1) + sine));
     const auto touching = [&](const V& normal) {
         const T first = dot(normal, from) + radius_from, second = dot(normal, to) + radius_to;

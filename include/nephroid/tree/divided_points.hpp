@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Points in contiguous memory, divided in two again and again: what a tree's lower levels are made of.
+/// @file  Points in contiguous memory that are halved recursively, for a tree's lower levels.
 #pragma once
 
 #include "nephroid/tree/box.hpp"
@@ -13,13 +13,13 @@
 
 namespace nephroid::detail {
 
-/// A point. Its index rides along as a fourth coordinate, so that one is moved and compared as a vector of four.
+/// A point whose index is stored as a fourth coordinate, so that it is moved and compared as a vector of four.
 template <Scalar T>
 struct IndexedPoint {
     std::array<T, 4> at;
 
-    IndexedPoint(const std::array<T, 3>& place, std::uint32_t index)
-        : at{place[0], place[1], place[2], packed(index)} {}
+    IndexedPoint(const std::array<T, 3>& position, std::uint32_t index)
+        : at{position[0], position[1], position[2], packed(index)} {}
     [[nodiscard]] std::uint32_t index() const {
         if constexpr (std::is_same_v<T, float>)
             return std::bit_cast<std::uint32_t>(at[3]);
@@ -36,22 +36,22 @@ private:
     }
 };
 
-/// Some of a tree's points, which are brought into the tree's order by dividing them again and again.
+/// A part of a tree's points, which is sorted into the tree's order by halving it recursively.
 template <Scalar T>
 class DividedPoints {
 public:
     using Point = IndexedPoint<T>;
 
-    /// @param leaf_size  points in a leaf at most
+    /// @param leaf_size  largest number of points in a leaf
     explicit DividedPoints(std::size_t leaf_size) : leaf_size_(leaf_size) {}
 
     [[nodiscard]] std::size_t size() const { return points_.size(); }
     [[nodiscard]] const Point& operator[](std::size_t i) const { return points_[i]; }
     void clear() { points_.clear(); }
-    void add(const std::array<T, 3>& place, std::uint32_t index) { points_.push_back({place, index}); }
+    void add(const std::array<T, 3>& position, std::uint32_t index) { points_.push_back({position, index}); }
 
     [[nodiscard]] Box<T> bounds(std::size_t begin, std::size_t end) const {
-        std::array<T, 4> low = points_[begin].at, high = low; // the fourth has no meaning
+        std::array<T, 4> low = points_[begin].at, high = low; // the fourth component has no meaning
         const Point* const points = points_.data();
         for (std::size_t i = begin + 1; i < end; ++i) {
             NEPHROID_NOT_UNROLLED
@@ -64,8 +64,9 @@ public:
         return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
     }
 
-    /// Puts those of the lower half first, along the longest side of the box; returns where the others begin. Many are
-    /// divided at the box's middle; the last few hundred where all leaves below will be as full as can be.
+    /// Puts the points of the lower half along the longest side of the box first, and returns where the upper half
+    /// begins. Large ranges are divided at the box's middle, the last few hundred points so that the leaves become as
+    /// full as possible.
     [[nodiscard]] std::size_t halve(std::size_t begin, std::size_t end, const Box<T>& box) {
         std::size_t axis = 0;
         for (std::size_t other = 1; other < 3; ++other)
@@ -83,10 +84,10 @@ public:
     }
 
 private:
-    /// Orders points as std::nth_element does. By interpolation, as most are spread evenly: one pass over all of them
-    /// then leaves few to look at. Without a branch for each point, which would go either way.
+    /// Orders points as std::nth_element does. It searches by interpolation: coordinates are usually spread evenly, so
+    /// that one pass over all points leaves few candidates. It has no unpredictable branch for each point.
     ///
-    /// @param low, high  of the coordinate
+    /// @param low, high  range of the coordinate
     void select(std::size_t axis, std::size_t begin, std::size_t end, std::size_t middle, T low, T high) {
         constexpr std::size_t few = 32;
         for (int tries = 0; tries < 8 && end - begin > few; ++tries) {
@@ -102,7 +103,7 @@ private:
                          [axis](const Point& a, const Point& b) { return a.at[axis] < b.at[axis]; });
     }
 
-    /// Puts the points below a border first; returns where the others begin.
+    /// Puts the points below a border first, and returns where the others begin.
     [[nodiscard]] std::size_t partition(std::size_t axis, std::size_t begin, std::size_t end, T border) {
         Point* const points = points_.data();
         above_.resize(points_.size(), points[begin]);

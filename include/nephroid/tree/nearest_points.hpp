@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The nearest of many points: gathered with some to spare, and thinned out whenever there is no more room.
+/// @file  Collects the nearest of many points, with some to spare, and discards the furthest when it is full.
 #pragma once
 
 #include "nephroid/tree/smallest.hpp"
@@ -18,30 +18,31 @@ namespace nephroid {
 /// A point found by `PointTree::nearest`.
 template <Scalar T>
 struct Neighbour {
-    T distance2;        ///< to the place asked for, world units squared
+    T distance2;        ///< to the query point, world units squared
     std::uint32_t slot; ///< in the tree's leaf order
 };
 
-/// Every point counts.
+/// Accepts every point.
 struct AcceptAll {
     [[nodiscard]] constexpr bool operator()(std::size_t) const { return true; }
 };
 
 namespace detail {
-/// The nearest of the points offered. A heap of them would be put in order after every point, with a branch to guess at
-/// each level; here a limit is found now and then that about as many lie within as are wanted, by counting.
+/// Collects the nearest of the points offered. A heap would be reordered after every point, with an unpredictable
+/// branch at each level. Instead, from time to time a distance within which about as many points lie as are wanted is
+/// found by counting, and points beyond it are discarded.
 template <Scalar T>
 class NearestPoints {
 public:
-    /// @param wanted  how many points, > 0
-    /// @param limit2  only points nearer than the root of this count
-    /// @param lanes   how many are offered at once
+    /// @param wanted  number of points, > 0
+    /// @param limit2  squared distance within which points count
+    /// @param lanes   number of points offered at once
     NearestPoints(std::size_t wanted, T limit2, std::size_t lanes)
         : wanted_(wanted), most_(wanted + (std::max)(wanted, 2 * lanes)), limit2_(limit2),
           unlimited_(!isfinite(limit2)) {
         assert(!is_busy() && "nephroid: accept() looks up nearest points itself");
         is_busy() = true;
-        static thread_local std::vector<T> distances2; // these grow to the largest look-up, and stay
+        static thread_local std::vector<T> distances2; // kept between look-ups, as large as the largest needed
         static thread_local std::vector<std::uint32_t> slots;
         const std::size_t room = most_ + lanes;
         if (slots.size() < room) {
@@ -53,15 +54,15 @@ public:
     }
 
     ~NearestPoints() { is_busy() = false; }
-    NearestPoints(const NearestPoints&) = delete; // one at a time on a thread
+    NearestPoints(const NearestPoints&) = delete; // a thread may have one at a time
     NearestPoints& operator=(const NearestPoints&) = delete;
 
     /// Whether a point at this distance may be among the nearest.
     [[nodiscard]] bool wants(T distance2) const { return bool(int(distance2 < limit2_) | int(unlimited_)); }
 
-    /// @param distance2  of the points in slots from `slot` on
-    /// @param count      how many of them there are; the others may be asked for, but do not count
-    /// @param accept     accept(slot): whether a point counts at all
+    /// @param distance2  squared distances of the points in slots from `slot` on
+    /// @param count      number of these points; `accept` may be called for the slots after them, but they do not count
+    /// @param accept     accept(slot) returns whether a point counts
     template <std::size_t N, class Accept>
     void offer(const std::array<T, N>& distance2, std::size_t count, std::uint32_t slot, const Accept& accept) {
         const T limit2 = limit2_;
@@ -76,7 +77,7 @@ public:
         NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < N; ++i)
             counts[i] = (counts[i] | all) & std::uint32_t(accept(std::size_t(slot) + i));
-        // Without a branch, as which points count is anybody's guess.
+        // Without branches, because which points count is unpredictable.
         std::size_t size = size_;
         for (std::size_t i = 0; i < count; ++i) {
             distance2_[size] = distance2[i];
@@ -88,7 +89,8 @@ public:
             thin(wanted_ / 8);
     }
 
-    /// Puts the points wanted, or all there are, into `found`, in no particular order; returns how many.
+    /// Puts the nearest points into `found` in no particular order, and returns their number: all, if there are fewer
+    /// than wanted.
     std::size_t put(std::span<Neighbour<T>> found) {
         if (size_ > wanted_)
             thin(0);
@@ -103,14 +105,14 @@ private:
         return busy;
     }
 
-    /// Keeps those wanted and `spare` others at most.
+    /// Keeps the points wanted, and at most `spare` others.
     void thin(std::size_t spare) {
         const T high = unlimited_ ? *std::max_element(distance2_, distance2_ + size_) : limit2_;
         const auto [limit2, at_limit] = limit_of_smallest<T>({distance2_, size_}, wanted_, spare, high);
         keep(limit2, at_limit);
     }
 
-    /// Keeps the points below a limit, and as many more of those at it.
+    /// Keeps the points below a limit, and `more` of those at it.
     void keep(T limit2, std::size_t more) {
         std::size_t kept = 0;
         for (std::size_t i = 0; i < size_; ++i) {
@@ -128,7 +130,7 @@ private:
 
     std::size_t wanted_, most_, size_ = 0;
     T limit2_;
-    bool unlimited_; ///< squared distances may be infinite, where positions span all of a scalar's range
+    bool unlimited_; ///< whether points at infinite squared distance count: positions may span the scalar's whole range
     T* distance2_;   ///< of the points kept so far
     std::uint32_t* slot_;
 };

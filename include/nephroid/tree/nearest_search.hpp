@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A search for the nearest points: through a tree's nodes, the nearer child first.
+/// @file  Searches a tree for the nearest points, the nearer child first.
 #pragma once
 
 #include "nephroid/tree/nearest_points.hpp"
@@ -7,17 +7,17 @@
 
 namespace nephroid::detail {
 
-/// One search in a tree that gives out its nodes, leaves and distances (PointTreeView).
+/// One search in a PointTreeView.
 template <class Tree, class Accept>
 class NearestSearch {
 public:
     using T = typename Tree::T;
-    using Place = std::array<T, 3>;
+    using Position = std::array<T, 3>;
 
-    NearestSearch(const Tree& tree, const Place& place, const Accept& accept)
-        : tree_(&tree), place_(place), accept_(&accept) {}
+    NearestSearch(const Tree& tree, const Position& position, const Accept& accept)
+        : tree_(&tree), position_(position), accept_(&accept) {}
 
-    /// @param nearest  takes the points
+    /// @param nearest  collects the points
     void run(NearestPoints<T>& nearest) const {
         const std::span<const TreeNode<T>> nodes = tree_->nodes();
         struct Waiting {
@@ -51,14 +51,14 @@ public:
     }
 
 private:
-    /// The nearer child is searched first; the other one waits. A tree too deep for that (points clustered over
-    /// hundreds of orders of two) has the rest of a branch walked in the nodes' own order, which needs no room.
+    /// The other children wait on a stack of this size. If a tree is too deep for it (points clustered over hundreds of
+    /// powers of two), the subtree is searched in the nodes' own order, which needs no stack.
     static constexpr std::size_t most_waiting = 64;
 
     [[nodiscard]] T distance2_to(const Box<T>& box) const {
         const auto larger = [](const T& a, const T& b) { return a > b ? a : b; };
         const auto beside = [&](std::size_t axis) {
-            return larger(larger(box.low[axis] - place_[axis], place_[axis] - box.high[axis]), T(0));
+            return larger(larger(box.low[axis] - position_[axis], position_[axis] - box.high[axis]), T(0));
         };
         return square(beside(0)) + square(beside(1)) + square(beside(2));
     }
@@ -68,7 +68,7 @@ private:
         const TreeLeaf leaf = tree_->leaves()[number];
         for (std::uint32_t first = 0; first < leaf.size; first += lanes) {
             std::array<T, Tree::lanes> distance2;
-            tree_->distances2(leaf.first + first, place_, distance2);
+            tree_->distances2(leaf.first + first, position_, distance2);
             const std::size_t size = (std::min)(lanes, std::size_t(leaf.size - first));
             nearest.offer(distance2, size, leaf.first + first, *accept_);
         }
@@ -81,7 +81,7 @@ private:
     }
 
     const Tree* tree_;
-    Place place_;
+    Position position_;
     const Accept* accept_;
 };
 

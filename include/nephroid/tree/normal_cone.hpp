@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-/// @file  A bound on many unit normals: one test tells whether any of them, or all, face a direction.
+/// @file  A bound on many unit normals, which tests at once whether any or all of them face a direction.
 #pragma once
 
 #include "nephroid/tree/box.hpp"
 
 namespace nephroid {
 
-/// Unit normals that lie within `spread` of `axis`, as places on the unit sphere.
+/// Unit normals within a distance of `spread` from `axis`, as points on the unit sphere.
 template <Scalar T>
 struct NormalCone {
     std::array<T, 3> axis; ///< the middle of the normals, of length 1 at most
-    T spread;              ///< how far the furthest of them is from it: 0 where all are the same
+    T spread;              ///< distance of the furthest normal from it: 0 if all are the same
 
-    /// How many of the normals have a positive product with a direction.
+    /// Whether normals have a positive inner product with a direction.
     struct Facing {
         bool some; ///< false only if none has
         bool all;  ///< true only if every one has
@@ -21,13 +21,15 @@ struct NormalCone {
     /// @param x, y, z  a direction of unit length
     [[nodiscard]] constexpr Facing facing(T x, T y, T z) const {
         const T cosine = x * axis[0] + y * axis[1] + z * axis[2];
-        // Normals are of unit length, so rounding is of that size; where all are the same they give what a vertex does.
+        // Normals have unit length, so rounding is of that size. If all are the same, the result is that of each
+        // vertex.
         const T reach = spread > T(0) ? spread * (T(1) + rounding) + rounding : T(0);
         return {cosine > -reach, cosine > reach};
     }
 
 private:
-    /// Of a sum's terms: more than was ever seen, for compilers that fuse products and sums.
+    /// Bound of a sum's rounding error over its terms. It is larger than any error seen, and covers compilers that fuse
+    /// products and sums.
     static constexpr T rounding = T(64) * std::numeric_limits<T>::epsilon();
 };
 

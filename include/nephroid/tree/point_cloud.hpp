@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Points on their way into a tree: checked, and moved so that an origin amid them is 0.
+/// @file  Gathers points for a tree: checks them, and makes them relative to an origin in their middle.
 #pragma once
 
 #include "nephroid/vector/algebra.hpp"
@@ -14,7 +14,7 @@
 
 namespace nephroid::detail {
 
-/// Points as nanoflann asks for them.
+/// Points with the interface that nanoflann needs.
 template <Scalar T>
 struct PointCloud {
     std::vector<std::array<T, 3>> points;
@@ -44,8 +44,8 @@ template <Vector3 V, class Position>
     return cloud;
 }
 
-/// The median of each coordinate, of a few thousand of the points: a stray one far away must not take the digits of
-/// all others, as it would with the middle of the bounds.
+/// The median of each coordinate, over a few thousand of the points. The middle of the bounds would not do: with a
+/// stray point far away, all others would lose digits.
 template <Scalar T>
 [[nodiscard]] std::array<T, 3> median_of(const std::vector<std::array<T, 3>>& points) {
     const std::size_t stride = (points.size() + 4095) / 4096;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// @file  A spatial look-up over points: nanoflann builds the tree, the library lays it out and walks it.
+/// @file  A kd-tree over points. nanoflann divides the upper levels; the library builds the rest, stores and searches
+///        it.
 ///
-/// The points are put in the tree's leaf order once, relative to an origin amid them, as one array per coordinate:
-/// a leaf is a contiguous range that a compiler can vectorise over, and a scene far from its origin keeps the digits
-/// of small distances.
+/// The points are stored in the tree's leaf order, relative to an origin in their middle, with one array per
+/// coordinate. So a leaf is a contiguous range over which compilers can vectorise, and a scene far from its origin
+/// keeps the digits of small distances.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -17,7 +18,7 @@
 
 namespace nephroid {
 
-/// Owns a tree over points. What can be looked up in it, and how, PointTreeView says.
+/// Owns a tree over points. PointTreeView documents the look-ups.
 template <Vector3 V>
 class PointTree {
 public:
@@ -45,7 +46,7 @@ public:
         wide_ = detail::WideTree<T>(nodes_);
     }
 
-    /// Valid as long as this tree lives and its points stay where they are.
+    /// A view of the tree, valid as long as the tree lives and its points are not moved.
     [[nodiscard]] View view() const {
         return View({origin_,
                      nodes_,
@@ -55,7 +56,7 @@ public:
                      {coordinates_[0].data(), coordinates_[1].data(), coordinates_[2].data()}});
     }
 
-    // As PointTreeView has them.
+    // See PointTreeView.
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
     [[nodiscard]] V origin() const { return view().origin(); }
     [[nodiscard]] Box<T> bounds() const { return view().bounds(); }
@@ -74,8 +75,8 @@ public:
     [[nodiscard]] std::uint32_t nearest_leaf(const V& relative_position) const {
         return view().nearest_leaf(relative_position);
     }
-    void distances2(std::size_t slot, const std::array<T, 3>& place, std::array<T, lanes>& distance2) const {
-        view().distances2(slot, place, distance2);
+    void distances2(std::size_t slot, const std::array<T, 3>& position, std::array<T, lanes>& distance2) const {
+        view().distances2(slot, position, distance2);
     }
     template <class Accept = AcceptAll>
     std::size_t nearest(const V& relative_position, std::span<Neighbour<T>> found,
@@ -83,11 +84,11 @@ public:
         return view().nearest(relative_position, found, limit2, accept);
     }
 
-    /// Moves the points and keeps the tree's shape: every slot keeps its point, and the boxes are drawn tight about
-    /// where the points are now. Look-ups stay exact however far they moved, and slow down as leaves come to overlap.
+    /// Moves the points without changing the tree's structure: every slot keeps its point, and the boxes are fitted to
+    /// the new positions. Look-ups stay exact however far points moved, but slow down when leaves begin to overlap.
     ///
-    /// @param moved  coordinates by slot, relative to the origin, finite; slots() for each axis, of which those that
-    ///               repeat a point are not read. Holds the coordinates from before afterwards.
+    /// @param moved  finite coordinates by slot, relative to the origin: slots() for each axis, of which those that
+    ///               repeat a point are not read. Contains the old coordinates afterwards
     template <class E>
         requires Executor<E&>
     void refit(std::array<std::vector<T>, 3>& moved, E& executor) {
@@ -107,7 +108,7 @@ public:
     }
 
 private:
-    /// Repeats a leaf's last point up to whole lanes, and draws its box.
+    /// Pads a leaf to whole lanes with its last point, and computes its box.
     void refit_leaf(const TreeLeaf& leaf, Box<T>& box) {
         const std::size_t last = leaf.first + leaf.size - 1;
         for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A tree over points, as whoever looks points up in it sees it: pointers alone, which a device can be given.
+/// @file  A view of a tree over points: only pointers, which can be copied to a device.
 #pragma once
 
 #include "nephroid/tree/nearest_leaf.hpp"
@@ -10,15 +10,15 @@
 
 namespace nephroid {
 
-/// A tree over points. Trivially copyable, and refers to arrays that a PointTree owns, or to copies of them elsewhere.
+/// A tree over points. Trivially copyable. It refers to arrays that a PointTree owns, or to copies of them on a device.
 template <Vector3 V>
 class PointTreeView {
 public:
     using T = scalar_t<V>;
     static constexpr std::size_t lanes = detail::leaf_lanes; ///< leaves start at multiples of this many slots
-    static constexpr std::size_t leaf_size = 64;             ///< points in a leaf at most
+    static constexpr std::size_t leaf_size = 64;             ///< largest number of points in a leaf
 
-    /// What there is to copy for a tree that is looked up elsewhere.
+    /// The arrays of the tree: copy them to use the tree on a device.
     struct Arrays {
         std::array<T, 3> origin;
         std::span<const TreeNode<T>> nodes;
@@ -35,13 +35,13 @@ public:
     [[nodiscard]] constexpr V origin() const {
         return make_vector<V>(arrays_.origin[0], arrays_.origin[1], arrays_.origin[2]);
     }
-    /// About all points, relative to the origin; low > high when there are none.
+    /// The bounds of all points, relative to the origin; low > high if there are none.
     [[nodiscard]] constexpr Box<T> bounds() const { return empty() ? detail::empty_box<T>() : arrays_.nodes[0].box; }
     [[nodiscard]] constexpr std::span<const TreeNode<T>> nodes() const { return arrays_.nodes; }
     [[nodiscard]] constexpr std::span<const TreeLeaf> leaves() const { return arrays_.leaves; }
-    /// Number of slots of the leaf order, repeated ones included.
+    /// The number of slots in the leaf order, including those that repeat a point.
     [[nodiscard]] constexpr std::size_t slots() const { return arrays_.index.size(); }
-    /// The point in a slot: its index as the user counts.
+    /// The index of the point in a slot, as the user counts points.
     [[nodiscard]] constexpr std::uint32_t index(std::size_t slot) const { return arrays_.index[slot]; }
     /// Coordinates by slot, relative to the origin.
     [[nodiscard]] constexpr const T* x() const { return arrays_.coordinates[0]; }
@@ -65,9 +65,9 @@ public:
         detail::visit_overlapping(arrays_.wide_nodes, arrays_.nodes, box, visit);
     }
 
-    /// The same, but for the nodes that are not entered, and all below them.
+    /// The same, but skips some nodes and all below them.
     ///
-    /// @param enters  enters(node's number, its box) -> whether to go into a node that the volume overlaps
+    /// @param enters  enters(node's index, its box) returns whether to enter a node that the volume overlaps
     template <class Q, class Enters, class Visit>
         requires detail::MustBeVolume<Q, T>
     void visit_leaves(const Q& volume, const Enters& enters, Visit&& visit) const {
@@ -83,34 +83,36 @@ public:
         return detail::nearest_leaf(arrays_.wide_nodes, arrays_.nodes, components(relative_position));
     }
 
-    /// Squared distances from a place (relative to the origin) to the points in `lanes` slots from this one on.
-    constexpr void distances2(std::size_t slot, const std::array<T, 3>& place, std::array<T, lanes>& distance2) const {
+    /// Squared distances from a point (relative to the origin) to those in `lanes` slots, beginning with a given one.
+    constexpr void distances2(std::size_t slot, const std::array<T, 3>& position,
+                              std::array<T, lanes>& distance2) const {
         const T* const px = x() + slot;
         const T* const py = y() + slot;
         const T* const pz = z() + slot;
-        const T cx = place[0], cy = place[1], cz = place[2];
+        const T cx = position[0], cy = position[1], cz = position[2];
         NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < lanes; ++i)
             distance2[i] = square(px[i] - cx) + square(py[i] - cy) + square(pz[i] - cz);
     }
 
-    /// The points nearest to a place (relative to the origin), in no particular order. None to a place that is no
-    /// number.
+    /// Finds the points nearest to a given one (relative to the origin), in no particular order. Finds none if its
+    /// coordinates are NaN.
     ///
-    /// @param found   room for as many as are wanted
-    /// @param limit2  only points nearer than the root of this count
-    /// @param accept  accept(slot): whether a point counts at all; asked of points that lie near enough, and of their
-    ///                neighbours in the leaf order, so that it can be vectorised; must not look up nearest points
+    /// @param found   gets the points; its size is the number wanted
+    /// @param limit2  squared distance within which points count
+    /// @param accept  accept(slot) returns whether a point counts. It is called for points that are close enough, and
+    ///                for their neighbours in the leaf order so that it can be vectorised; it must not search this way
     ///                itself
-    /// @return  how many there are: found.size(), or all that count if there are fewer
+    /// @return  the number of points found: found.size(), or fewer if fewer count
     template <class Accept = AcceptAll>
     std::size_t nearest(const V& relative_position, std::span<Neighbour<T>> found,
                         T limit2 = std::numeric_limits<T>::infinity(), const Accept& accept = {}) const {
-        const std::array<T, 3> place = components(relative_position);
-        if (empty() || found.empty() || !(place[0] == place[0] && place[1] == place[1] && place[2] == place[2]))
+        const std::array<T, 3> position = components(relative_position);
+        if (empty() || found.empty() ||
+            !(position[0] == position[0] && position[1] == position[1] && position[2] == position[2]))
             return 0;
         detail::NearestPoints<T> nearest(found.size(), limit2, lanes);
-        detail::NearestSearch<PointTreeView, Accept>(*this, place, accept).run(nearest);
+        detail::NearestSearch<PointTreeView, Accept>(*this, position, accept).run(nearest);
         return nearest.put(found);
     }
 

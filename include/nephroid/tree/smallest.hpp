@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The smallest of some values, told apart from the others by counting.
+/// @file  Finds a limit that separates the smallest of some values from the others, by counting.
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
@@ -13,7 +13,7 @@
 
 namespace nephroid::detail {
 
-/// Values below the limit, and so many of those at it, are the smallest.
+/// The smallest values are those below the limit, and a number of those equal to it.
 template <Scalar T>
 struct SmallestLimit {
     T limit;
@@ -28,13 +28,13 @@ template <Scalar T>
     return count;
 }
 
-/// What parts the smallest values from the others. By interpolation, in loops without branches that are vectorised:
-/// fast where values are spread evenly, as squared distances on a surface are.
+/// Finds the limit by interpolation, in vectorised loops without branches. It is fast if values are spread evenly, as
+/// squared distances on a surface are.
 ///
-/// @param values  at least 0; none is a NaN
-/// @param wanted  how many, at least: 1 to values.size()
+/// @param values  >= 0; none is a NaN
+/// @param wanted  least number of smallest values, 1 to values.size()
 /// @param spare   how many more there may be
-/// @param high    no value is larger
+/// @param high    upper bound of the values
 template <Scalar T>
 [[nodiscard]] SmallestLimit<T> limit_of_smallest(std::span<const T> values, std::size_t wanted, std::size_t spare,
                                                  T high) {
@@ -51,7 +51,7 @@ template <Scalar T>
         (below < wanted ? below_low : below_high) = below;
         (below < wanted ? low : high) = guess;
     }
-    // Several are equal, mostly.
+    // Usually several values are equal here.
     static thread_local std::vector<T> sorted;
     sorted.assign(values.begin(), values.end());
     const auto last = sorted.begin() + std::ptrdiff_t(wanted - 1);

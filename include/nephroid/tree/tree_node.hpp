@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a kd-tree is made of: nodes in depth-first order, and leaves.
+/// @file  The nodes of a kd-tree, in depth-first order, and its leaves.
 #pragma once
 
 #include "nephroid/tree/box.hpp"
@@ -9,19 +9,19 @@
 
 namespace nephroid {
 
-/// A kd-tree's nodes in depth-first order. A query that misses a node's box goes on at `skip`, one that meets it at
-/// the next node: the walk needs no stack, whatever the depth.
+/// A node of a kd-tree. Nodes are in depth-first order. A query that misses a node's box continues at `skip`, one that
+/// overlaps it at the next node, so that a search needs no stack at any depth.
 template <Scalar T>
 struct TreeNode {
-    Box<T> box;         ///< tight about the node's points
+    Box<T> box;         ///< tight around the node's points
     std::uint32_t skip; ///< the node after this one's subtree
     std::uint32_t leaf; ///< its leaf, or `no_leaf`
 };
 
 inline constexpr std::uint32_t no_leaf = (std::numeric_limits<std::uint32_t>::max)();
 
-/// Slots [first, first + size) of the leaf order hold points; up to the next multiple of `PointTree::lanes` they
-/// repeat the last one, so that loops over whole lanes read nothing foreign.
+/// Slots [first, first + size) of the leaf order contain the leaf's points. Up to the next multiple of
+/// `PointTree::lanes` they repeat the last one, so that loops over whole lanes read no points of other leaves.
 struct TreeLeaf {
     std::uint32_t first;
     std::uint32_t size;
@@ -31,15 +31,15 @@ namespace detail {
 /// Leaves start at multiples of this many slots.
 inline constexpr std::size_t leaf_lanes = 16;
 
-/// How many slots a leaf takes, those that repeat its last point included.
+/// The number of slots of a leaf, including those that repeat its last point.
 [[nodiscard]] constexpr std::size_t slots_of(const TreeLeaf& leaf) {
     return (leaf.size + leaf_lanes - 1) / leaf_lanes * leaf_lanes;
 }
 
-/// Calls visit(leaf) for the leaves below a node, in their order, of which every node on the way is entered. Needs no
-/// room, whatever the depth.
+/// Calls visit(leaf) for the leaves below a node, in order, if all nodes above them are entered. Needs no stack at any
+/// depth.
 ///
-/// @param enters  enters(node's number, its box) -> whether to go into it
+/// @param enters  enters(node's index, its box) returns whether to enter the node
 /// @param visit   visit(leaf)
 template <Scalar T, class Enters, class Visit>
 constexpr void walk_nodes(std::span<const TreeNode<T>> nodes, std::uint32_t root, const Enters& enters, Visit& visit) {
@@ -54,9 +54,9 @@ constexpr void walk_nodes(std::span<const TreeNode<T>> nodes, std::uint32_t root
     }
 }
 
-/// Gives the inner nodes what holds all that is below them. Children follow their parents: one pass backwards.
+/// Computes the inner nodes' data from their children's. Children follow their parents, so one pass backwards suffices.
 ///
-/// @param add  add(node, child): adds to what the node has what the child has
+/// @param add  add(node, child) adds the child's data to the node's
 template <Scalar T, class Add>
 void gather_upwards(std::span<const TreeNode<T>> nodes, const Add& add) {
     for (std::size_t i = nodes.size(); i-- > 0;)

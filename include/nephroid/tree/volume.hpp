@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a tree is searched for: any volume that can say whether it overlaps a box.
+/// @file  The concept of a volume that a tree is searched for: it says whether it overlaps a box.
 #pragma once
 
 #include "nephroid/tree/normal_cone.hpp"
@@ -8,23 +8,24 @@
 
 namespace nephroid {
 
-/// `volume.overlaps(box)`: whether some of the volume may lie in the box. It may say yes where none does, and a leaf is
-/// then visited for nothing; never no where some does. Boxes are relative to the tree's origin, and may be flat.
+/// `volume.overlaps(box)` returns whether a part of the volume may lie in the box. It may return true if none does;
+/// then a leaf is visited in vain. It must not return false if some does. Boxes are relative to the tree's origin, and
+/// may be flat.
 ///
-/// Box is one, ConvexVolume another; a renderer's own needs this member alone.
+/// Box and ConvexVolume are volumes; a renderer's own one needs only this member.
 template <class Q, class T>
 concept Volume = Scalar<T> && requires(const Q volume, const Box<T> box) {
     { volume.overlaps(box) } -> std::convertible_to<bool>;
 };
 
-/// A volume that asks for normals, too: `volume.faces(cone)`, whether one of the cone's normals may be what it looks
-/// for. A tree that knows normals then leaves out the nodes where none is; one that does not visits all.
+/// A volume with a condition on normals: `volume.faces(cone)` returns whether one of the cone's normals may satisfy it.
+/// A tree with normals then skips the nodes in which none does; other trees ignore the condition.
 template <class Q, class T>
 concept FacingVolume = Volume<Q, T> && requires(const Q volume, const NormalCone<T> cone) {
     { volume.faces(cone) } -> std::convertible_to<bool>;
 };
 
-/// The part of a volume whose surfaces face a direction.
+/// The part of a volume in which surfaces face a direction.
 ///
 /// ```cpp
 /// map.visit_leaves(Facing{box, std::array{0.f, 0.f, 1.f}}, visit); // what may be lit from above
@@ -32,7 +33,7 @@ concept FacingVolume = Volume<Q, T> && requires(const Q volume, const NormalCone
 template <Scalar T, Volume<T> Q>
 struct Facing {
     Q volume;
-    std::array<T, 3> direction; ///< unit, from the surfaces to what they are to face
+    std::array<T, 3> direction; ///< unit, away from the surfaces
 
     [[nodiscard]] constexpr bool overlaps(const Box<T>& box) const { return volume.overlaps(box); }
     [[nodiscard]] constexpr bool faces(const NormalCone<T>& cone) const {

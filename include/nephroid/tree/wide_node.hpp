@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Eight children of a kd-tree's node side by side, and the walk through them.
+/// @file  A kd-tree's node with eight children, and the traversal of such nodes.
 #pragma once
 
 #include "nephroid/tree/tree_node.hpp"
@@ -7,18 +7,18 @@
 
 namespace nephroid::detail {
 
-/// A node with eight children, whose boxes lie together coordinate by coordinate: they are tested in a few vector
-/// instructions, without a branch that goes either way at every node of the binary tree.
+/// A node with eight children. Their boxes are stored coordinate by coordinate, so that they are tested with a few
+/// vector instructions instead of an unpredictable branch at every node of the binary tree.
 template <Scalar T>
 struct WideNode {
     static constexpr std::size_t width = 8;
     static constexpr std::uint32_t leaf_flag = 0x80000000u;
 
     std::array<std::array<T, width>, 3> low, high; ///< of the children; an absent one has an empty box
-    std::array<std::uint32_t, width> child;        ///< a wide node, or a leaf's number with `leaf_flag`
-    std::array<std::uint32_t, width> source;       ///< the binary tree's node that each child is; `no_leaf` if absent
+    std::array<std::uint32_t, width> child;        ///< index of a wide node, or of a leaf with `leaf_flag`
+    std::array<std::uint32_t, width> source;       ///< each child's node in the binary tree; `no_leaf` if absent
 
-    /// 1 for each child whose box overlaps this one, else 0.
+    /// 1 for each child whose box overlaps a given one, 0 for the others.
     [[nodiscard]] std::array<std::uint32_t, width> overlaps(const Box<T>& box) const {
         std::array<std::uint32_t, width> overlap;
         NEPHROID_NOT_UNROLLED
@@ -34,11 +34,11 @@ struct WideNode {
         return {{low[0][i], low[1][i], low[2][i]}, {high[0][i], high[1][i], high[2][i]}};
     }
 
-    /// The Chebyshev distance of each child's box from a place.
-    [[nodiscard]] std::array<T, width> distances(const std::array<T, 3>& place) const {
+    /// The Chebyshev distance of each child's box from a point.
+    [[nodiscard]] std::array<T, width> distances(const std::array<T, 3>& position) const {
         std::array<T, width> distance;
         const auto larger = [](const T& a, const T& b) { return a > b ? a : b; };
-        const T x = place[0], y = place[1], z = place[2];
+        const T x = position[0], y = position[1], z = position[2];
         NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < width; ++i) {
             const T beside_x = larger(low[0][i] - x, x - high[0][i]);
@@ -50,16 +50,16 @@ struct WideNode {
     }
 };
 
-/// A tree too deep for this (points clustered over hundreds of orders of two) has the rest of a branch walked in the
-/// binary nodes' own order, which needs no room.
+/// Size of the traversal's stack. If a tree is too deep for it (points clustered over hundreds of powers of two), the
+/// subtree is traversed in the binary nodes' own order, which needs no stack.
 inline constexpr std::size_t most_pending = 128;
 
-/// Goes through a tree in order.
+/// Traverses a tree in leaf order.
 ///
 /// @param wide    the tree's wide nodes
 /// @param nodes   its binary nodes
-/// @param choose  choose(wide node) -> 1 for each child to go into, else 0
-/// @param enters  enters(binary node's number, its box) -> whether to go into it: the same of one node
+/// @param choose  choose(wide node) returns 1 for each child to enter, 0 for the others
+/// @param enters  enters(binary node's index, its box) returns the same for a single node
 /// @param visit   visit(leaf)
 template <Scalar T, class Choose, class Enters, class Visit>
 void walk_wide(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> nodes, const Choose& choose,
@@ -81,7 +81,7 @@ void walk_wide(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> n
         } else {
             const Node& node = wide[child];
             const std::array<std::uint32_t, Node::width> chosen = choose(node);
-            for (std::size_t i = Node::width; i-- > 0;) { // the first one on top
+            for (std::size_t i = Node::width; i-- > 0;) { // so that the first child is on top of the stack
                 pending[top] = {node.child[i], node.source[i]};
                 top += chosen[i];
             }
@@ -93,7 +93,7 @@ void walk_wide(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> n
     }
 }
 
-/// Calls visit(leaf) for every leaf whose box overlaps this one, in leaf order.
+/// Calls visit(leaf) for every leaf whose box overlaps a given one, in leaf order.
 template <Scalar T, class Visit>
 void visit_overlapping(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> nodes, const Box<T>& box,
                        Visit& visit) {
@@ -102,15 +102,15 @@ void visit_overlapping(std::span<const WideNode<T>> wide, std::span<const TreeNo
         [&](std::uint32_t, const Box<T>& other) { return other.overlaps(box); }, visit);
 }
 
-/// Calls visit(leaf) for every leaf that is entered, as are all nodes above it, in leaf order.
+/// Calls visit(leaf) for every leaf that is entered together with all nodes above it, in leaf order.
 ///
-/// @param enters  enters(binary node's number, its box) -> whether to go into it
+/// @param enters  enters(binary node's index, its box) returns whether to enter it
 template <Scalar T, class Enters, class Visit>
 void visit_entered(std::span<const WideNode<T>> wide, std::span<const TreeNode<T>> nodes, const Enters& enters,
                    Visit& visit) {
     const auto choose = [&](const WideNode<T>& node) {
         std::array<std::uint32_t, WideNode<T>::width> chosen{};
-        for (std::size_t i = 0; i < chosen.size() && node.source[i] != no_leaf; ++i) // absent ones are the last
+        for (std::size_t i = 0; i < chosen.size() && node.source[i] != no_leaf; ++i) // absent children come last
             chosen[i] = std::uint32_t(bool(enters(node.source[i], node.box(i))));
         return chosen;
     };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A kd-tree's nodes made wide: what a look-up on a processor with vectors goes through.
+/// @file  The wide nodes of a kd-tree, for searches with vector instructions.
 #pragma once
 
 #include "nephroid/tree/wide_node.hpp"
@@ -8,7 +8,7 @@
 
 namespace nephroid::detail {
 
-/// The same tree with eight children a node.
+/// A binary tree converted to nodes with eight children.
 template <Scalar T>
 class WideTree {
 public:
@@ -21,7 +21,7 @@ public:
         if (nodes.empty())
             return;
         nodes_.reserve(nodes.size() / 8 + 1);
-        std::vector<std::uint32_t> roots{0}; // of the wide nodes, as far as they are known
+        std::vector<std::uint32_t> roots{0}; // the binary nodes of the wide nodes known so far
         for (std::size_t i = 0; i < roots.size(); ++i)
             add(nodes, roots[i], roots);
         refit(nodes);
@@ -29,7 +29,7 @@ public:
 
     [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
 
-    /// Takes the boxes anew from nodes that have moved.
+    /// Updates the boxes after the binary nodes' boxes have changed.
     void refit(std::span<const TreeNode<T>> nodes) {
         for (Node& node : nodes_)
             for (std::size_t i = 0; i < Node::width; ++i) {
@@ -42,8 +42,8 @@ public:
     }
 
 private:
-    /// The node of a binary node's children, and theirs: the one with the most nodes below it is replaced by its two
-    /// until there are eight.
+    /// Makes the wide node of a binary node. Beginning with its two children, the one with the most nodes below it is
+    /// replaced by its own two children until there are eight.
     void add(std::span<const TreeNode<T>> nodes, std::uint32_t root, std::vector<std::uint32_t>& roots) {
         std::array<std::uint32_t, Node::width> members;
         std::size_t count = 1;
