@@ -34,11 +34,5 @@ TEST_CASE("emission domain: the distance to a kink is that to the nearest of its
         CHECK(distance_to_kink(Kinks::diagonals, 1 - t, t) == doctest::Approx(0));
         const double step = 0.01; // off the diagonal by step in each coordinate
         CHECK(distance_to_kink(Kinks::diagonals, t + step * root, t - step * root) == doctest::Approx(step));
-        CHECK(distance_to_kink(Kinks::octahedron, 0.5, t) == 0);
-        CHECK(distance_to_kink(Kinks::octahedron, t, 0.5) == 0);
-        CHECK(distance_to_kink(Kinks::octahedron, t, 0.5 - t) == doctest::Approx(0));
-        CHECK(distance_to_kink(Kinks::octahedron, 0.5 + t, 1 - t) == doctest::Approx(0));
     }
-    CHECK(distance_to_kink(Kinks::octahedron, 0.26, 0.23) == doctest::Approx(root * 0.01)); // south west
-    CHECK(distance_to_kink(Kinks::octahedron, 0.1, 0.48) == doctest::Approx(0.02));         // beside the middle line
 }

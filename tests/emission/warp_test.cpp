@@ -86,8 +86,6 @@ TEST_CASE("warp: caps narrow and wide and the whole sphere are filled evenly") {
         const double distance = chi_square_of([&](double u1, double u2) -> std::array<double, 2> {
             const D direction = cap(height, u1, u2);
             const Frame<D> frame = frame_about(tilted);
-            if (height == 2) // about the z axis, whatever the cone's
-                return {0.5 * (1 + direction.z), turn(direction.y, direction.x)};
             return {0.5 * length2(D(direction - tilted)) / height,
                     turn(dot(direction, frame.v), dot(direction, frame.u))};
         });
@@ -123,7 +121,11 @@ TEST_CASE("warp: each map stretches area by the same factor everywhere") {
         for (const double height : {0.01, 0.3, 1.0, 1.5, 2.0}) {
             CAPTURE(height);
             const auto sphere = [&](double a, double b) { return cap(height, a, b); };
-            CHECK(stretch(sphere, u1, u2) == doctest::Approx(tau * height).epsilon(slope_tolerance));
+            // Towards the point opposite to the axis a square root has third derivatives like the -5th power of the
+            // cosine of half the angle.
+            const double half_cos = std::sqrt(0.5 * (1 + dot(sphere(u1, u2), tilted)));
+            CHECK(stretch(sphere, u1, u2) ==
+                  doctest::Approx(tau * height).epsilon(slope_tolerance * std::pow(half_cos, -5)));
         }
         const double cos = dot(cosine(u1, u2), tilted);
         // The rim's square root has third derivatives like cos^-5 there, hence the factor.
@@ -132,13 +134,11 @@ TEST_CASE("warp: each map stretches area by the same factor everywhere") {
     });
 }
 
-// No map is steeper than the octahedral one at its poles: with r = |a| + |b| and |a| = |2 u1 - 1| its speed by |a| is
-// 2 / sqrt(2 - r²) along the meridian and at most π/2 sqrt(2 - r²) along the parallel, so by u1 in all
-// 2 sqrt(2 + π²/2). The concentric map has 2 sqrt(1 + π²/16), and onto a hemisphere 2 sqrt(4 + π²/8). A jump adds
-// its length.
+// By u1 the concentric map has 2 sqrt(1 + π²/16), and onto a hemisphere 2 sqrt(4 + π²/8) at most. The whole sphere's
+// angle from the axis is 2 asin r with r = |2 u1 - 1|, steepest at the edge. A jump adds its length.
 TEST_CASE("warp: the maps are continuous") {
     constexpr int n = 256;
-    constexpr double step = 1.0 / n, steepest = 5.2661;
+    constexpr double step = 1.0 / n, steepest = 4.5746;
     const auto check = [&](const std::function<D(double, double)>& map, double bound) {
         double longest = 0;
         for (int i = 0; i < n; ++i) {
@@ -153,7 +153,7 @@ TEST_CASE("warp: the maps are continuous") {
     check([](double a, double b) { return D(concentric_disk(a, b).x, concentric_disk(a, b).y, 0); }, steepest);
     check([](double a, double b) { return D(triangle_point(a, b).b1, triangle_point(a, b).b2, 0); }, steepest);
     check([](double a, double b) { return cap(1.0, a, b); }, steepest);
-    check([](double a, double b) { return sphere_direction<D>(a, b); }, steepest);
+    check([](double a, double b) { return sphere_direction<D>(a, b); }, 2 * std::acos(1 - 2 * step) / step);
 }
 
 TEST_CASE_TEMPLATE("warp: centres and corners and edges go where they belong", T, float, double) {
@@ -183,7 +183,7 @@ TEST_CASE_TEMPLATE("warp: centres and corners and edges go where they belong", T
         }
     }
     CHECK(sphere_direction<V>(T(0.5), T(0.5)).z == 1);
-    CHECK(sphere_direction<V>(T(0), T(0)).z == -1);
+    CHECK(sphere_direction<V>(T(0), T(0)).z <= -1 + 4 * epsilon);
 }
 
 // A cone of half angle a has height a²/2: its rim is a from the axis, to a few roundings, however small a is.

@@ -18,10 +18,18 @@ struct Cone {
     [[nodiscard]] bool is_everything() const { return height >= scalar_t<V>(2); }
 };
 
+/// All directions. Neighbours are known best about the axis, and least opposite to it, where all of the square's edge
+/// is one direction: the axis should point at what photons are wanted at.
+template <Vector3 V>
+[[nodiscard]] Cone<V> every_direction(const V& axis) {
+    return {axis, scalar_t<V>(2)};
+}
+
+/// All directions, about an axis that is at least 50 degrees away from those that scenes are built along, both ways.
 template <Vector3 V>
 [[nodiscard]] Cone<V> every_direction() {
     using T = scalar_t<V>;
-    return {make_vector<V>(T(0), T(0), T(1)), T(2)};
+    return every_direction(make_vector<V>(T(0.64), T(0.48), T(0.6)));
 }
 
 /// A direction uniform in the cone, unit.
@@ -30,8 +38,7 @@ template <Vector3 V>
 /// @param u1,u2  in [0, 1]; the direction changes continuously with them
 template <Vector3 V>
 [[nodiscard]] V direction_in(const Cone<V>& cone, const Frame<V>& frame, scalar_t<V> u1, scalar_t<V> u2) {
-    return cone.is_everything() ? sphere_direction<V>(u1, u2)
-                                : cap_direction(cone.axis, frame, cone.height, concentric_disk(u1, u2));
+    return cap_direction(cone.axis, frame, cone.height, concentric_disk(u1, u2));
 }
 
 /// How a pair of coordinates is mapped: its kinks, and what lies at its edges.
@@ -43,8 +50,7 @@ struct EmissionPair {
 /// How `direction_in` maps the square to a cone.
 template <Vector3 V>
 [[nodiscard]] EmissionPair directions_of(const Cone<V>& cone) {
-    return cone.is_everything() ? EmissionPair{Kinks::octahedron, DomainEdge::folds}
-                                : EmissionPair{Kinks::diagonals, DomainEdge::ends};
+    return {Kinks::diagonals, cone.is_everything() ? DomainEdge::closes : Edge::ends};
 }
 
 } // namespace nephroid

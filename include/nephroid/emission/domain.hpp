@@ -4,7 +4,6 @@
 
 #include "nephroid/version.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -16,16 +15,15 @@ namespace nephroid {
 /// Lines in a square of two coordinates across which a light's map to rays has a kink. Elsewhere it is smooth.
 enum class Kinks : unsigned char {
     nowhere,
-    diagonals,  ///< |u − ½| = |v − ½|: those of `concentric_disk`
-    octahedron, ///< u = ½, v = ½ and |u − ½| + |v − ½| = ½: those of `sphere_direction`
-    unknown,    ///< anywhere, and jumps too: such as between the triangles of a mesh
+    diagonals, ///< |u − ½| = |v − ½|: those of `concentric_disk`
+    unknown,   ///< anywhere, and jumps too: such as between the triangles of a mesh
 };
 
 /// What lies at both ends of a coordinate, 0 and 1.
 enum class DomainEdge : unsigned char {
     ends,    ///< a border of the light
     repeats, ///< no border: what lies at 0 lies at 1 too, and the coordinate goes round
-    folds,   ///< no border: the edge of the square is folded in its middle, (0, v) is (0, 1 − v)
+    closes,  ///< no border: all of the square's edge is one ray
 };
 
 /// What a number means that a light draws besides its coordinates.
@@ -60,8 +58,6 @@ struct EmissionDomain {
         return std::numeric_limits<double>::infinity();
     case Kinks::diagonals:
         return root_half * std::abs(a - b);
-    case Kinks::octahedron:
-        return (std::min)({a, b, root_half * std::abs(a + b - 0.5)});
     case Kinks::unknown:
         break;
     }

@@ -47,7 +47,7 @@ template <std::ranges::forward_range R>
     return {center, radius * (T(1) + T(8) * std::numeric_limits<T>::epsilon())};
 }
 
-/// The directions from a point to the sphere: every direction from inside of it. The cone is exact to a few units in
+/// The directions from a point to the sphere: from inside of it every direction, about that to its centre. The cone is exact to a few units in
 /// the last place, however narrow it is (but for the widest, from points that all but touch the sphere), and rounded
 /// up, so that no direction is missed.
 template <Vector3 V>
@@ -56,7 +56,7 @@ template <Vector3 V>
     const V towards = target.center - from;
     const T distance = length(towards);
     if (!(distance > target.radius))
-        return every_direction<V>();
+        return distance > T(0) ? every_direction<V>(T(1) / distance * towards) : every_direction<V>();
     constexpr T rounding = T(12) * std::numeric_limits<T>::epsilon(); // of all that is added up below, rounded up
     const T inverse = T(1) / distance;
     const T sine = target.radius * inverse;

@@ -49,19 +49,12 @@ template <Vector3 V>
     return (stretch * disk.x) * frame.u + ((stretch * disk.y) * frame.v + (T(1) - depth) * axis);
 }
 
-/// A direction uniform over the whole sphere: an octahedron unfolded into the square.
-/// Source: Clarberg 2008, "Fast equal-area mapping of the (hemi)sphere using SIMD".
+/// A direction uniform over the whole sphere: the cap that is all of it, about z. The square's edge is (0, 0, -1).
 template <Vector3 V>
 [[nodiscard]] V sphere_direction(scalar_t<V> u1, scalar_t<V> u2) {
     using T = scalar_t<V>;
-    const T a = T(2) * u1 - T(1), b = T(2) * u2 - T(1);
-    const T to_equator = T(1) - (abs(a) + abs(b)); // > 0: the northern half
-    const T r = T(1) - abs(to_equator);
-    const T angle = r > T(0) ? pi<T> / T(4) * ((abs(b) - abs(a)) / r + T(1)) : T(0);
-    const T across = r * sqrt(T(2) - r * r);
-    const T z = T(1) - r * r;
-    return make_vector<V>((a < T(0) ? T(-1) : T(1)) * across * cos(angle),
-                          (b < T(0) ? T(-1) : T(1)) * across * sin(angle), to_equator < T(0) ? -z : z);
+    const V up = make_vector<V>(T(0), T(0), T(1));
+    return cap_direction(up, frame_about(up), T(2), concentric_disk(u1, u2));
 }
 
 /// A direction of the hemisphere about the axis with density cos/π per steradian: the disk raised to the sphere.

@@ -102,7 +102,6 @@ public:
                 .edges = {positions.edges, positions.edges}};
     }
 
-    [[nodiscard]] bool is_aimed() const { return target_.has_value(); }
     /// Whether all points of a sphere send their photons into the cone towards the target.
     [[nodiscard]] bool aims_everywhere(const V& center, T radius) const {
         return target_ && length(V(target_->center - center)) - radius > T(1.001) * reach();

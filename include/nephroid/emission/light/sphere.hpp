@@ -39,7 +39,7 @@ public:
     [[nodiscard]] EmissionDomain exact_domain() const {
         EmissionDomain exact = emission_.domain(directions_of(cap_), center_, radius_);
         // Directions about normals turn over where these lie across the middle one.
-        if (cap_.height >= T(1) && !emission_.aims_everywhere(center_, radius_) && emission_.is_aimed())
+        if (cap_.height >= T(1) && !emission_.aims_everywhere(center_, radius_))
             exact.kinks[0] = Kinks::unknown;
         return exact;
     }
@@ -80,7 +80,7 @@ private:
             validate.complain("target of radius", detail::text_of(options.target->radius),
                               "lies inside of the light, where it sends nothing; aim it at what is outside");
         if (reach >= T(2) * distance)
-            return every_direction<V>();
+            return every_direction<V>(T(1) / distance * towards);
         constexpr T up = T(1) + T(8) * std::numeric_limits<T>::epsilon(); // no normal is to be missed
         return {T(1) / distance * towards, (std::min)(T(2), up * reach / distance)};
     }
