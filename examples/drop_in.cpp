@@ -61,8 +61,10 @@ int main() {
 
     const nephroid::EyePathMap map(vertices, &EyeVertex::position, &EyeVertex::normal);
     auto sums = nephroid::sums<float>(map);
-    const nephroid::DirectionalLight<Vec, float> sun(
-        {.direction = {0.3f, 0, -1}, .irradiance = 1, .patch = nephroid::BoundingSphere<Vec>{{0, 0, 1.3f}, 1}});
+    const nephroid::DirectionalLight<Vec, float> sun({.direction = {0.3f, 0, -1},
+                                                      .irradiance = 1,
+                                                      .patch = nephroid::BoundingSphere<Vec>{{0, 0, 1.3f}, 1},
+                                                      .scene = nephroid::BoundingSphere<Vec>{{0, 0, 1}, 3}});
     nephroid::ThreadExecutor threads;
 
     const auto statistics = nephroid::caustics(Scene{}, sun, sums, {.count = 50'000}, threads);

@@ -157,7 +157,9 @@ template <class T, Flux F>
             PointLight<Vec3<T>, F>({.position = {0, 0, T(5.25)}, .intensity = grey<F>(16), .target = ball}));
     else
         light.push_back(
-            DirectionalLight<Vec3<T>, F>({.direction = {0, 0, -1}, .irradiance = grey<F>(1), .patch = ball}));
+            DirectionalLight<Vec3<T>, F>({.direction = {0, 0, -1},
+                                          .irradiance = grey<F>(1),
+                                          .patch = beam_over<Vec3<T>>({0, 0, -1}, ball)})); // nothing is above it
     return {std::move(scene), CaseLight<T, F>(std::move(light)), {-0.5, 0.5, -0.5, 0.5}, false};
 }
 

@@ -9,6 +9,9 @@
 #include "nephroid/emission/light/validate.hpp"
 #include "nephroid/emission/warp.hpp"
 
+#include <algorithm>
+#include <limits>
+#include <optional>
 #include <variant>
 
 namespace nephroid {
@@ -31,6 +34,11 @@ public:
         /// A sphere is covered by a disk in front of it; a disk lies across the beam; a parallelogram may lie as it
         /// likes: photons start on it, and their tangents lie in it. `smallest_beam_over` makes one for given bounds.
         BeamPatch<V> patch;
+        /// All that may stand in the light's way: it starts outside of this, so that a wall between the sun and the glass
+        /// casts its shadow. Without it a disk or a parallelogram is where photons start, and those aimed at a sphere
+        /// start 64 radii ahead of it: what is further away than that does not count, and what they meet is found
+        /// to a few millionths of a radius only. Pass your scene's bounds.
+        std::optional<BoundingSphere<V>> scene = std::nullopt;
     };
 
     /// Throws std::invalid_argument for a direction without length or in the patch's plane, a patch without area, a
@@ -39,6 +47,11 @@ public:
         validate_.flux("irradiance", options.irradiance);
         direction_ = validate_.direction("direction", options.direction);
         std::visit([this](const auto& patch) { this->cover(patch); }, options.patch);
+        validate_.sphere("scene's", options.scene);
+        if (options.scene)
+            origin_ = origin_ - way_out_of(*options.scene) * direction_;
+        else if (std::holds_alternative<BoundingSphere<V>>(options.patch))
+            origin_ = origin_ - T(64) * std::get<BoundingSphere<V>>(options.patch).radius * direction_;
         validate_.positive("patch's area", area_);
         basis_ = aligned_basis(normal_, direction_);
     }
@@ -110,6 +123,14 @@ private:
         cosine_ = abs(dot(normal_, direction_));
         if (!(cosine_ > T(4) * std::numeric_limits<T>::epsilon()))
             validate_.complain("direction", detail::text_of(direction_), "lies in the patch's plane; turn the patch");
+    }
+
+    /// How far the patch has to go back against the light until all of it is outside of the scene.
+    [[nodiscard]] T way_out_of(const BoundingSphere<V>& scene) const {
+        const V last = is_disk_ ? origin_ : origin_ + (T(0.5) * edge_u_ + T(0.5) * edge_v_);
+        const T tilt = is_disk_ ? T(0) : T(0.5) * (abs(dot(edge_u_, direction_)) + abs(dot(edge_v_, direction_)));
+        const T ahead = dot(V(last - scene.center), direction_) + tilt;
+        return (std::max)(T(0), ahead + scene.radius + detail::beam_margin(scene.center, scene.radius));
     }
 
     static constexpr detail::Validator validate_{"DirectionalLight"};

@@ -40,11 +40,17 @@ public:
     }
 
     template <Vector3 V>
-    void target(const std::optional<BoundingSphere<V>>& sphere) const {
-        if (!sphere)
+    void target(const std::optional<BoundingSphere<V>>& bounds) const {
+        sphere("target's", bounds);
+    }
+
+    /// @param whose  such as "target's"
+    template <Vector3 V>
+    void sphere(const char* whose, const std::optional<BoundingSphere<V>>& bounds) const {
+        if (!bounds)
             return;
-        finite("target's centre", sphere->center);
-        positive("target's radius", sphere->radius);
+        finite((std::string(whose) + " centre").c_str(), bounds->center);
+        positive((std::string(whose) + " radius").c_str(), bounds->radius);
     }
 
     template <Flux F>
