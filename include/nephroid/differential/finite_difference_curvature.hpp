@@ -101,8 +101,9 @@ private:
     /// sink below it.
     [[nodiscard]] std::optional<Probe> probe(const V& along, T offset) const {
         const T height = abs(offset);
-        const V origin = position_ + (offset * along + height * geometric_normal_);
-        const auto hit = tracer_->intersect(origin, -geometric_normal_, T(0), T(2) * height);
+        const T skipped = tracer_epsilon();
+        const V origin = position_ + (offset * along + (height + skipped) * geometric_normal_);
+        const auto hit = tracer_->intersect(origin, -geometric_normal_, T(0), T(2) * height + skipped);
         if (!hit)
             return std::nullopt;
         if constexpr (requires { std::size_t((*hit).surface); })
@@ -119,6 +120,14 @@ private:
     [[nodiscard]] T step(T scale) const {
         const double r(scale), away(largest_component(position_)), epsilon(std::numeric_limits<T>::epsilon());
         return T(std::cbrt(epsilon * r * r * (r + away)));
+    }
+
+    /// What the tracer skips at the start of every ray (`HasTracerEpsilon`, transport/scene.hpp).
+    [[nodiscard]] T tracer_epsilon() const {
+        if constexpr (requires { T(tracer_->tracer_epsilon); })
+            return T(tracer_->tracer_epsilon);
+        else
+            return T(0);
     }
 
     [[nodiscard]] static V nothing_known() {
@@ -168,7 +177,7 @@ concept LiesOnSurface = requires(const H hit) {
 ///                world units, positive and finite (else dn is NaN). Too large a scale costs a few more rays, as long
 ///                as the factor is well below ε^(−1/3), 200 in float; too small a scale costs accuracy, the factor
 ///                to the power 2/3. The rays start about ε^(1/3) scale off the surface: a tracer that skips a distance
-///                at the start of every ray must skip less
+///                at the start of every ray must skip less, or have a member `tracer_epsilon` that says how much
 /// @return  for the hit's member `curvature`. The relative error is about (ε (1 + |p|/scale))^(2/3), with ε the
 ///          scalar's epsilon and |p| the position's largest coordinate: 3e-5 in float, 5e-11 in double
 template <class Tracer, LiesOnSurface H>

@@ -57,9 +57,13 @@ struct Statistics {
     std::uint64_t specular_events = 0; ///< reflections and refractions
     std::uint64_t branches = 0;        ///< ways more than one for each photon, where all ways are followed: of so many
                                        ///< photons more than were emitted the fates tell
-    std::uint64_t corrected_normals = 0;  ///< events that used the geometric normal, as the shading one sent the ray
-                                          ///< through the wrong side of the surface
-    std::uint64_t bounded_shifts = 0;     ///< of second-order splats, shortened
+    std::uint64_t corrected_normals = 0; ///< events that used the geometric normal, as the shading one sent the ray
+                                         ///< through the wrong side of the surface
+    std::uint64_t hits_at_start = 0;  ///< surfaces met where the ray began: another one touches the one it left, or the
+                                      ///< renderer found that one again
+    std::uint64_t opaque_first = 0;  ///< photons whose first surface was neither a mirror nor glass
+    std::uint64_t escaped_first = 0; ///< photons that met no surface at all
+    std::uint64_t bounded_shifts = 0; ///< of second-order splats, shortened
     std::uint64_t bounded_footprints = 0; ///< made smaller by the excess policy, or larger by the collapse policy
 
     [[nodiscard]] const Tally& operator[](Fate fate) const { return fates[std::size_t(fate)]; }
@@ -95,6 +99,9 @@ struct Statistics {
         specular_events += other.specular_events;
         branches += other.branches;
         corrected_normals += other.corrected_normals;
+        hits_at_start += other.hits_at_start;
+        opaque_first += other.opaque_first;
+        escaped_first += other.escaped_first;
         bounded_shifts += other.bounded_shifts;
         bounded_footprints += other.bounded_footprints;
         return *this;

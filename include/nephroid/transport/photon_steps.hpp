@@ -7,7 +7,8 @@
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/bend.hpp"
 #include "nephroid/transport/deposit.hpp"
-#include "nephroid/transport/scene.hpp"
+#include "nephroid/transport/ray_start.hpp"
+#include "nephroid/transport/sound_values.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -30,6 +31,9 @@ public:
         ++account_.emitted.photons;
         if (emitted_power_ > 0 && isfinite(emitted_power_)) {
             account_.emitted.add(emitted_power_);
+            if (!is_unit(photon_.direction) || has_negative_band(photon_.flux))
+                return end(Fate::invalid);
+            begin_ray(T(0));
             return true;
         }
         // A light may emit nothing in a direction; what is no number at all has no place in a sum.
@@ -40,7 +44,10 @@ public:
     /// Carries the photon and its tangents to a hit.
     [[nodiscard]] bool fly_to(const H& hit) {
         const T distance = hit.distance;
-        const auto flight = transfer(photon_.direction, distance + ahead_, V(hit.geometric_normal));
+        const V normal = hit.geometric_normal;
+        if (!(distance >= T(0)) || !is_unit(normal))
+            return end(Fate::invalid);
+        const auto flight = transfer(photon_.direction, distance + ahead_, normal);
         if (!flight)
             return end(Fate::invalid);
         for (Tangent<V>& tangent : photon_.differential) {
@@ -51,8 +58,10 @@ public:
             photon_.position = hit.position;
         else
             photon_.position = photon_.position + distance * photon_.direction;
+        const T flown = distance - skipped_by_tracer<V>(scene_);
+        begins_at_hit_ = flown * abs(dot(photon_.direction, normal)) <= T(2) * ray_clearance(hit, photon_.position);
         if constexpr (Absorbs<S, V>)
-            return weigh(scene_.transmittance(medium_, distance));
+            return weigh(scene_.transmittance(medium_, flown));
         else
             return true;
     }
@@ -73,7 +82,7 @@ public:
     [[nodiscard]] bool weigh(const Weight& weight) {
         const F weighted = photon_.flux * weight;
         const double before = power(photon_.flux), after = power(weighted);
-        if (!isfinite(after))
+        if (!isfinite(after) || has_negative_band(weighted))
             return end(Fate::invalid);
         account_.lose(Fate::absorbed, before - after);
         photon_.flux = weighted;
@@ -88,6 +97,8 @@ public:
         V shading_normal = geometric_normal;
         if constexpr (HasShadingNormal<H, V>)
             shading_normal = facing(hit) * V(hit.shading_normal);
+        if (!is_unit(shading_normal) || !has_index<T>(scattering))
+            return end(Fate::invalid);
         if (!bend_about(photon_, medium_, shading_normal, geometric_normal, hit, scattering)) {
             ++account_.corrected_normals;
             if (!bend_about(photon_, medium_, geometric_normal, geometric_normal, hit, scattering))
@@ -126,18 +137,21 @@ public:
     void leave(const H& hit) {
         if constexpr (SpawnsRays<S, V>) {
             photon_.position = scene_.spawn(hit, photon_.direction);
+            begin_ray(T(0));
         } else {
-            // By twice the error: once for the point that was hit, once for the next intersection's own rounding. Along
-            // the ray, which so stays on its line, and only for what is left at low angles along the normal.
+            // Along the ray, which so stays on its line, and only for what is left at low angles along the normal.
             const V normal = hit.geometric_normal;
             const T cosine = dot(photon_.direction, normal), steepness = abs(cosine),
-                    height = T(2) * T(hit.position_error);
+                    height = ray_clearance(hit, photon_.position);
             const T along = steepness > T(0.5) ? height / steepness : T(2) * height;
             const T rest = (std::max)(T(0), height - along * steepness);
             photon_.position = photon_.position + (along * photon_.direction + (cosine > T(0) ? rest : -rest) * normal);
-            ahead_ = along + rest * steepness;
+            begin_ray(along + rest * steepness);
         }
     }
+
+    /// Whether the surface that the photon is at is where its ray began, as far as numbers can tell.
+    [[nodiscard]] bool began_here() const { return begins_at_hit_; }
 
     bool end(Fate fate) {
         account_.end(fate, power(photon_.flux));
@@ -167,6 +181,15 @@ public:
     [[nodiscard]] static double power(const F& flux) { return double(flux_traits<F>::power(flux)); }
 
 private:
+    /// @param ahead  how far along its line from the surface the photon was put
+    void begin_ray(T ahead) {
+        ahead_ = ahead;
+        if constexpr (HasTracerEpsilon<S, V>) {
+            photon_.position = photon_.position - skipped_by_tracer<V>(scene_) * photon_.direction;
+            ahead_ = ahead_ - skipped_by_tracer<V>(scene_);
+        }
+    }
+
     [[nodiscard]] T facing(const H& hit) const { return facing_sign(photon_.direction, hit); }
 
     const S& scene_;
@@ -174,6 +197,7 @@ private:
     Photon<V, F, N>& photon_; // the caller's own: copied here, its first flight would wait for it
     double emitted_power_;
     T ahead_ = T(0); ///< how far ahead of the surface that the photon left its ray began
+    bool begins_at_hit_ = false;
     [[no_unique_address]] Medium medium_{};
 };
 

@@ -34,6 +34,14 @@ concept SpawnsRays = Intersects<S, V> && requires(const S& scene, const hit_t<S,
 template <class S, class V>
 concept KeepsRaysOffSurfaces = SpawnsRays<S, V> || HasPositionError<hit_t<S, V>, V>;
 
+/// Optional: the renderer's tracer finds nothing nearer than `scene.tracer_epsilon` to a ray's origin, whatever t_min
+/// says (world units, >= 0; 0.001 is usual). The walk then begins its rays so much further back, along their own line,
+/// that nothing is skipped: neither the table that a glass stands on nor a surface close to the lamp.
+template <class S, class V>
+concept HasTracerEpsilon = requires(const S& scene) {
+    { scene.tracer_epsilon } -> std::convertible_to<scalar_t<V>>;
+};
+
 /// Enough for photons without tangents; for others hits also say how their normals change (`Hit`).
 template <class S, class V>
 concept RayTracer =

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file  The loop of a photon's walk: flights, surfaces, and ways that part; what the visitor does not ask for is left
-///        out of it.
+///        out of it. (A few lines longer than other headers: it is one loop.)
 #pragma once
 
 #include "nephroid/transport/account.hpp"
@@ -49,6 +49,7 @@ private:
     static constexpr bool tells_deposits = VisitsDeposits<Visitor, V, F, N>;
     static constexpr bool all_ways = follows_all_ways<Visitor>;
     static constexpr bool may_part = all_ways && ScattersAllWays<S, V>;
+    static constexpr unsigned most_lamp_surfaces = 4; // of both sides of its sheets; more are the tracer's mistake
     using waiting_t = typename waiting_of<S, V, F, N, trail_t<Visitor>, may_part>::type;
 
     /// To the next surface, and off it again. @return  whether the photon goes on
@@ -63,8 +64,10 @@ private:
             const std::optional<V> end_normal = hit ? std::optional<V>(steps_.facing_normal(*hit)) : std::nullopt;
             visitor_.flight(departure_.flight(now, steps_.distance_from_surface(distance), end_normal, path_));
         }
-        if (!hit)
+        if (!hit) {
+            account_.escaped_first += path_.is_direct();
             return steps_.end(Fate::escaped);
+        }
         if (!steps_.fly_to(*hit))
             return false;
         if constexpr (may_part)
@@ -76,6 +79,14 @@ private:
     /// @tparam weighed  whether the photon's flux is the way's share already
     template <bool weighed, class Scattering>
     [[nodiscard]] bool take(const H& hit, const Scattering& scattering, Kept& kept) {
+        const bool is_opaque = scattering.event == Event::absorb || scattering.event == Event::deposit;
+        if (steps_.began_here()) {
+            if (path_.is_direct() && (is_opaque || !steps_.is_in_front_of(hit)) && lamp_surfaces_ < most_lamp_surfaces)
+                return leave_lamp(hit);
+            ++account_.hits_at_start;
+        }
+        if (path_.is_direct() && is_opaque)
+            ++account_.opaque_first;
         if (scattering.event == Event::absorb)
             return steps_.end(Fate::absorbed);
         if (scattering.event == Event::deposit)
@@ -171,6 +182,13 @@ private:
         }
     }
 
+    /// Off the surface of the lamp itself, which stands in the scene: the photon begins on it.
+    [[nodiscard]] bool leave_lamp(const H& hit) {
+        ++lamp_surfaces_;
+        leave(hit);
+        return true;
+    }
+
     void tell_of(const H& hit, bool from_front, bool passed) {
         path_.trail.meet(hit, from_front, passed);
         if constexpr (VisitsSurfaces<Visitor, H>)
@@ -193,6 +211,7 @@ private:
     [[no_unique_address]] std::conditional_t<tells_flights, Departure<V>, NoDeparture> departure_{};
     [[no_unique_address]] waiting_t waiting_{};
     unsigned followed_ = 0;
+    unsigned lamp_surfaces_ = 0;
 };
 
 } // namespace nephroid::detail
