@@ -2,6 +2,7 @@
 /// @file  Traces photons and keeps them, for photon maps.
 #pragma once
 
+#include "nephroid/execution/checked_executor.hpp"
 #include "nephroid/emission/without_tangents.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/pass/traced_batch.hpp"
@@ -42,6 +43,7 @@ template <class S, class L, SampleSequence Sequence = HaltonSequence, class E = 
                                  const Sequence& sequence = Sequence{}, E&& executor = E{}) {
     using Trace = PhotonTrace<typename L::vector, typename L::flux_type, detail::tangent_count_of<L>>;
     detail::check(pass, "nephroid::trace_photons");
+    detail::CheckedExecutor checked(executor);
     constexpr std::uint64_t photons_per_batch = 1 << 16;
 
     using Kept = std::optional<typename decltype(Trace::deposits)::value_type>;
@@ -61,7 +63,7 @@ template <class S, class L, SampleSequence Sequence = HaltonSequence, class E = 
     detail::TracedBatch<Kept> batch;
     for (std::uint64_t done = 0; done < pass.count;) {
         const std::uint64_t end = done + (std::min)(photons_per_batch, pass.count - done);
-        trace.statistics += batch.trace(light, sequence, pass.first, done, end, trace_one, executor);
+        trace.statistics += batch.trace(light, sequence, pass.first, done, end, trace_one, checked);
         const auto kept = std::size_t(trace.statistics[Fate::splatted].photons);
         if (kept > trace.deposits.capacity()) // as push_back would do, but in one step
             trace.deposits.reserve((std::max)(kept, 2 * trace.deposits.capacity()));

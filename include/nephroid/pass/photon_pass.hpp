@@ -46,6 +46,11 @@ namespace detail {
 inline void check(const PhotonPass& pass, const char* caller) {
     if (pass.count == 0)
         invalid_argument(std::string(caller) + ": zero photons; count must be at least 1");
+    if (pass.total != 0 && pass.count > pass.total)
+        invalid_argument(
+            std::string(caller) + ": count is " + std::to_string(pass.count) + " and total " +
+            std::to_string(pass.total) +
+            "; a pass traces a part of all photons, so total must be at least count, or 0 for count itself");
     if (pass.smoothing && (!(*pass.smoothing > 0) || !std::isfinite(*pass.smoothing)))
         invalid_argument(std::string(caller) + ": smoothing is " + text_of(*pass.smoothing) +
                          "; it must be positive and finite (5 to 16 suits most scenes)");

@@ -2,6 +2,8 @@
 /// @file  The optional arguments after the pass in calls that splat: policies, a sequence, an executor, in any order.
 #pragma once
 
+#include "nephroid/execution/checked_executor.hpp"
+#include "nephroid/footprint/check_kernel.hpp"
 #include "nephroid/pass/call_arguments.hpp"
 #include "nephroid/sequence/halton.hpp"
 #include "nephroid/splat/splat_policies.hpp"
@@ -35,14 +37,17 @@ template <class... Arguments>
 using sequence_among = std::remove_cvref_t<decltype(argument_of<SequenceKind>(std::declval<const HaltonSequence&>(),
                                                                               std::declval<Arguments&>()...))>;
 
-/// Calls use(policies, sequence, executor): each is the one among the arguments, or the default.
+/// Calls use(policies, sequence, executor): each is the one among the arguments, or the default. The executor is held to
+/// running each task once, and the kernel to its integral: std::invalid_argument.
 template <class DefaultPolicies, class Use, class... Arguments>
 decltype(auto) with_splat_arguments(const Use& use, Arguments&... arguments) {
     const DefaultPolicies policies{};
     const HaltonSequence sequence{};
     const SerialExecutor executor{};
-    return use(argument_of<PoliciesKind>(policies, arguments...), argument_of<SequenceKind>(sequence, arguments...),
-               argument_of<ExecutorKind>(executor, arguments...));
+    CheckedExecutor checked(argument_of<ExecutorKind>(executor, arguments...));
+    const auto& chosen = argument_of<PoliciesKind>(policies, arguments...);
+    check_kernel(chosen.kernel);
+    return use(chosen, argument_of<SequenceKind>(sequence, arguments...), checked);
 }
 
 } // namespace nephroid::detail
