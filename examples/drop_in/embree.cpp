@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iostream>
 #include <limits>
 #include <numbers>
 #include <string>
@@ -163,6 +164,7 @@ std::vector<Seen> trace_camera(std::size_t size) {
 
 // adapter begins
 #include <nephroid/nephroid.hpp>
+#include <nephroid/pass/diagnose.hpp>
 
 using renderer::Vec3fa;
 
@@ -225,7 +227,9 @@ void add_caustics(const renderer::Scene& scene, const std::vector<renderer::Seen
     const nephroid::BoundingSphere<Vec3fa> glass{{0, 0, 1.25f}, 1}; // what the sun is aimed at
     const nephroid::DirectionalLight<Vec3fa, float> sun({.direction = {0, 0, -1}, .irradiance = 1, .patch = glass});
     nephroid::ThreadExecutor threads; // Embree's scenes may be asked by many at a time
-    nephroid::caustics(CausticScene{scene}, sun, sums, {.count = 50'000, .smoothing = 5}, threads);
+    for (const std::string& sentence : nephroid::diagnose(
+             nephroid::caustics(CausticScene{scene}, sun, sums, {.count = 50'000, .smoothing = 5}, threads)))
+        std::cerr << sentence << '\n';
     sums.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
 }
 // adapter ends

@@ -6,9 +6,11 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <iostream>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 /// The renderer as it was before.
@@ -183,6 +185,7 @@ std::vector<VisiblePoint> TraceCamera(const Film& film) {
 
 // adapter begins
 #include <nephroid/nephroid.hpp>
+#include <nephroid/pass/diagnose.hpp>
 
 using namespace pbrtish;
 
@@ -255,7 +258,9 @@ void AddCaustics(const Scene& scene, const std::vector<VisiblePoint>& visible, F
     const nephroid::EyePathMap map(visible, position, normal);
     auto sums = nephroid::sums<RGBSpectrum>(map);
     nephroid::ThreadExecutor threads; // one per core; the sums are the same for any number
-    nephroid::caustics(CausticScene{scene}, PhotonLights(scene), sums, {.count = 100'000, .smoothing = 5}, threads);
+    for (const std::string& sentence : nephroid::diagnose(nephroid::caustics(
+             CausticScene{scene}, PhotonLights(scene), sums, {.count = 100'000, .smoothing = 5}, threads)))
+        std::cerr << sentence << '\n';
     sums.for_each([&](std::size_t i, const RGBSpectrum& irradiance) {
         film.AddSplat(visible[i].x, visible[i].y, visible[i].beta * irradiance);
     });

@@ -22,8 +22,10 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iostream>
 #include <numbers>
 #include <optional>
+#include <string>
 #include <vector>
 
 /// The renderer as it was before.
@@ -190,6 +192,7 @@ struct nephroid::vector_traits<Vec> {
     static float z(const Vec& v) { return v[2]; }
 };
 #else
+#include <nephroid/pass/diagnose.hpp>
 #include <nephroid/vector/glm.hpp> // the same for GLM's
 #endif
 
@@ -234,7 +237,9 @@ void add_caustics(const renderer::World& world, const std::vector<renderer::Seen
     const nephroid::BoundingSphere<Vec> glass{Vec(0, 0, 1.25f), 1}; // what the sun is aimed at
     const nephroid::DirectionalLight<Vec, float> sun({.direction = Vec(0, 0, -1), .irradiance = 1, .patch = glass});
     nephroid::ThreadExecutor threads;
-    nephroid::caustics(CausticScene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads);
+    for (const std::string& sentence : nephroid::diagnose(
+             nephroid::caustics(CausticScene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads)))
+        std::cerr << sentence << '\n';
     sums.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
 }
 // adapter ends

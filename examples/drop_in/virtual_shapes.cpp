@@ -4,8 +4,10 @@
 #include "picture.hpp"
 
 #include <cmath>
+#include <iostream>
 #include <limits>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -126,6 +128,7 @@ std::vector<Seen> trace_camera(std::size_t size) {
 
 // adapter begins
 #include <nephroid/nephroid.hpp>
+#include <nephroid/pass/diagnose.hpp>
 
 using renderer::Vec;
 
@@ -182,7 +185,9 @@ void add_caustics(const renderer::World& world, const std::vector<renderer::Seen
     const nephroid::DirectionalLight<Vec, float> sun(
         {.direction = {0, 0, -1}, .irradiance = 1, .patch = nephroid::BoundingSphere<Vec>{{0, 0, 1.25f}, 1}});
     nephroid::ThreadExecutor threads; // one per core; the result does not depend on their number
-    nephroid::caustics(CausticScene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads);
+    for (const std::string& sentence : nephroid::diagnose(
+             nephroid::caustics(CausticScene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads)))
+        std::cerr << sentence << '\n';
     // A pixel's radiance would be this times albedo / π and the weight of the camera's path.
     sums.for_each([&](std::size_t i, float irradiance) { film[seen[i].pixel] += irradiance; });
 }

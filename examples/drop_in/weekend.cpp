@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <iostream>
 #include <limits>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 // The renderer as it was before. Its camera, and what is not needed for a caustic, is left out.
@@ -183,6 +185,7 @@ public:
 
 // adapter begins
 #include <nephroid/nephroid.hpp>
+#include <nephroid/pass/diagnose.hpp>
 
 // How nephroid reads and makes the renderer's vector. A color is the same type, and so can be a photon's flux as it is.
 template <>
@@ -256,7 +259,9 @@ void add_caustics(const hittable_list& world, const vec3& sun_direction, const c
     const nephroid::BoundingSphere<vec3> target{glass.center, glass.radius};
     const nephroid::DirectionalLight<vec3, color> sun({sun_direction, sun_color, target});
     nephroid::ThreadExecutor threads;
-    nephroid::caustics(caustic_scene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads);
+    for (const std::string& sentence : nephroid::diagnose(
+             nephroid::caustics(caustic_scene{world}, sun, sums, {.count = 50'000, .smoothing = 5}, threads)))
+        std::cerr << sentence << '\n';
     sums.for_each([&](std::size_t i, const color& e) { image[seen[i].pixel] += seen[i].weight * e; });
 }
 // adapter ends

@@ -3,6 +3,8 @@
 
 #include "common/text.hpp"
 
+#include "nephroid/pass/diagnose.hpp"
+
 #include <cmath>
 #include <ostream>
 #include <utility>
@@ -55,6 +57,8 @@ void print_table(std::ostream& out, const Options& options, const Report& report
                 report.threads == 1 ? "" : "s");
     for (const std::string& note : report.notes)
         out << "note: " << note << '\n';
+    for (const std::string& sentence : diagnose(statistics))
+        out << "note: " << sentence << '\n';
     line(out, "photons emitted", grouped(statistics.emitted.photons));
     line(out, "caustic photons", grouped(statistics.caustic_photons()));
     line(out, "rays", grouped(statistics.rays));
