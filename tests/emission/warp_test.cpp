@@ -134,8 +134,8 @@ TEST_CASE("warp: each map stretches area by the same factor everywhere") {
     });
 }
 
-// By u1 the concentric map has 2 sqrt(1 + π²/16), and onto a hemisphere 2 sqrt(4 + π²/8) at most. The whole sphere's
-// angle from the axis is 2 asin r with r = |2 u1 - 1|, steepest at the edge. A jump adds its length.
+// By u1 the concentric map has 2 sqrt(1 + π²/16), and onto a hemisphere 2 sqrt(4 + π²/8) at most. The whole
+// sphere's angle from the axis is 2 asin r with r = |2 u1 - 1|, steepest at the edge. A jump adds its length.
 TEST_CASE("warp: the maps are continuous") {
     constexpr int n = 256;
     constexpr double step = 1.0 / n, steepest = 4.5746;

@@ -128,7 +128,7 @@ TEST_CASE("diagnose: light that lands nowhere") {
     CHECK(says(diagnose(fates_of(open, sun())), 0, "100% of the light leaves the scene"));
     // A few percent land, the others leave.
     open.sheets.push_back({{0, 0, 2}, {0, 0, 1}, Event::deposit, 1, 1, 1, 0.4});
-    CHECK(says(diagnose(fates_of(open, sun())), 0, "of the light leaves the scene: is there a surface"));
+    CHECK(says(diagnose(fates_of(open, sun())), 0, "of the photons that met a mirror or glass leave the scene"));
 }
 
 TEST_CASE("diagnose: invalid photons") {

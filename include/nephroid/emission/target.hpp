@@ -47,7 +47,8 @@ template <std::ranges::forward_range R>
     return {center, radius * (T(1) + T(8) * std::numeric_limits<T>::epsilon())};
 }
 
-/// The directions from a point to the sphere: from inside of it every direction, about that to its centre. The cone is exact to a few units in
+/// The directions from a point to the sphere: from inside of it every direction, about that to its centre. The cone is
+/// exact to a few units in
 /// the last place, however narrow it is (but for the widest, from points that all but touch the sphere), and rounded
 /// up, so that no direction is missed.
 template <Vector3 V>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  An executor that is held to its word: each task once. One that runs a task twice would write beyond the end of
-///        a list that has room for one, and one that leaves a task out would lose photons without a word.
+/// @file  An executor that is held to its word: each task once. One that runs a task twice would write beyond the end
+///        of a list that has room for one, and one that leaves a task out would lose photons without a word.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"

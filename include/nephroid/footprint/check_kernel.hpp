@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Whether a kernel gives a photon's flux once: one that does not makes the whole picture too bright or too dark.
+/// @file  Whether a kernel gives a photon's flux once: else the whole picture is too bright or too dark.
 #pragma once
 
 #include "nephroid/footprint/kernel.hpp"
@@ -29,7 +29,8 @@ void check_kernel(const K& kernel) {
     using T = std::conditional_t<MapsRadius2<K, double>, double, float>;
     const double integral = kernel_integral(kernel);
     if (!(std::abs(integral - 1) <= 0.01))
-        invalid_argument("nephroid: the kernel's integral over the unit disk is " + text_of(integral) +
+        invalid_argument("nephroid: the kernel's integral over the unit disk is " +
+                         text_of(std::round(1e4 * integral) / 1e4) +
                          "; divide it by that, so that a footprint holds its photon's flux once");
     if (!(kernel(T(1)) == T(0)) || !(kernel(T(1.5)) == T(0)))
         invalid_argument("nephroid: the kernel is not zero outside of the unit disk, at r² = 1 and beyond; footprints "

@@ -80,11 +80,11 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
                                 " of the light leaves the scene and " +
                                 percent(part_of(s[Fate::absorbed].flux, s.emitted.flux)) +
                                 " is absorbed; is there a floor, and does `scatter` answer deposit there?"});
-    if (caustic > 0 && part_of(s[Fate::escaped].flux, s.emitted.flux) >= 0.7)
-        found.push_back({part_of(s[Fate::escaped].flux, s.emitted.flux),
-                         percent(part_of(s[Fate::escaped].flux, s.emitted.flux)) +
-                             " of the light leaves the scene: is there a surface where it goes, and do rays find it "
-                             "from that side?"});
+    const double went_through = double(s.emitted.photons) - double(s.opaque_first) - double(s.escaped_first);
+    const double left = part_of(double(s[Fate::escaped].photons) - double(s.escaped_first), went_through);
+    if (caustic > 0 && left >= 0.7)
+        found.push_back({left, percent(left) + " of the photons that met a mirror or glass leave the scene: is there a "
+                                               "surface where they go, and do rays find it from that side?"});
     add(s[Fate::unseen].photons, 0.9, "fell where no eye path vertex sees them: does the camera look at the caustic?");
     add(s[Fate::collapsed].photons, 0.05,
         "had footprints without area and were left out: does `curvature` answer for the surface that was hit?");
@@ -92,8 +92,8 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
 }
 } // namespace detail
 
-/// What looks wrong in a pass, worst first: sentences with numbers, and what to do. Empty where all is well, which is no
-/// proof that the picture is right.
+/// What looks wrong in a pass, worst first: sentences with numbers, and what to do. Empty where all is well, which is
+/// no proof that the picture is right.
 ///
 /// ```cpp
 /// for (const std::string& sentence : nephroid::diagnose(statistics))

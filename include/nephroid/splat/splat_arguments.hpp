@@ -37,8 +37,8 @@ template <class... Arguments>
 using sequence_among = std::remove_cvref_t<decltype(argument_of<SequenceKind>(std::declval<const HaltonSequence&>(),
                                                                               std::declval<Arguments&>()...))>;
 
-/// Calls use(policies, sequence, executor): each is the one among the arguments, or the default. The executor is held to
-/// running each task once, and the kernel to its integral: std::invalid_argument.
+/// Calls use(policies, sequence, executor): each is the one among the arguments, or the default. The executor is held
+/// to running each task once, and the kernel to its integral: std::invalid_argument.
 template <class DefaultPolicies, class Use, class... Arguments>
 decltype(auto) with_splat_arguments(const Use& use, Arguments&... arguments) {
     const DefaultPolicies policies{};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where a ray begins: off the surface that it leaves by no more than rounding, and back by what the tracer skips.
+/// @file  Where a ray begins: off the surface that it leaves by no more than rounding, and back by what the tracer
+///        skips.
 #pragma once
 
 #include "nephroid/transport/scene.hpp"

@@ -94,6 +94,38 @@ TEST_CASE_TEMPLATE("directional light: photons over a sphere start outside of it
     }
 }
 
+// Whatever the patch, photons start before all of the scene, on the same lines as without it.
+TEST_CASE("directional light: it starts outside of the scene that it is told of") {
+    using V = glm::dvec3;
+    const BoundingSphere<V> scene{{3, 0, 1}, 20};
+    for (const BeamPatch<V>& patch :
+         {BeamPatch<V>(BoundingSphere<V>{{0, 0, 1}, 1}), BeamPatch<V>(BeamDisk<V>{{0, 0, 2}, 1}),
+          BeamPatch<V>(Parallelogram<V>{{0, 0, 2}, {2, 0, 0}, {0, 1, 1}}),
+          BeamPatch<V>(BeamDisk<V>{{0, 0, 1000}, 1})}) { // further out than it need be, and stays there
+        const V direction(0.6, 0, -0.8);
+        const Sun<double> without({.direction = direction, .irradiance = 1, .patch = patch});
+        const Sun<double> with({.direction = direction, .irradiance = 1, .patch = patch, .scene = scene});
+        CHECK(with.power() == without.power());
+        for (std::uint64_t i = 0; i < 100; ++i) {
+            const V a = photon_of(without, i, 1).position, b = photon_of(with, i, 1).position;
+            CHECK(dot(V(b - scene.center), direction) <= -scene.radius);
+            CHECK(length(cross(V(b - a), direction)) <= 1e-12 * 1000);
+        }
+    }
+    CHECK_THROWS_AS(Sun<double>({.direction = {0, 0, -1},
+                                 .irradiance = 1,
+                                 .patch = BeamDisk<V>{{0, 0, 2}, 1},
+                                 .scene = BoundingSphere<V>{{0, 0, 0}, 0}}),
+                    std::invalid_argument);
+}
+
+// A wall 40 radii ahead of the glass stands in the way.
+TEST_CASE("directional light: aimed at a sphere it starts far ahead of it") {
+    using V = glm::dvec3;
+    const Sun<double> light({.direction = {0, 0, -1}, .irradiance = 1, .patch = BoundingSphere<V>{{0, 0, 0}, 2}});
+    CHECK(photon_of(light, 1, 1).position.z > 80);
+}
+
 TEST_CASE("directional light: aiming at a sphere leaves the flux through it unchanged") {
     const BoundingSphere<glm::dvec3> target{{1, 2, 3}, 1.5};
     const Sun<double> wide(

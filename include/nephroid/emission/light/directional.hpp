@@ -34,7 +34,7 @@ public:
         /// A sphere is covered by a disk in front of it; a disk lies across the beam; a parallelogram may lie as it
         /// likes: photons start on it, and their tangents lie in it. `smallest_beam_over` makes one for given bounds.
         BeamPatch<V> patch;
-        /// All that may stand in the light's way: it starts outside of this, so that a wall between the sun and the glass
+        /// All that may stand in the light's way: it starts outside of this, so that a wall between sun and glass
         /// casts its shadow. Without it a disk or a parallelogram is where photons start, and those aimed at a sphere
         /// start 64 radii ahead of it: what is further away than that does not count, and what they meet is found
         /// to a few millionths of a radius only. Pass your scene's bounds.
