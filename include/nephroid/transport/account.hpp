@@ -61,8 +61,8 @@ struct Statistics {
                                          ///< through the wrong side of the surface
     std::uint64_t hits_at_start = 0;  ///< surfaces met where the ray began: another one touches the one it left, or the
                                       ///< renderer found that one again
-    std::uint64_t opaque_first = 0;  ///< photons whose first surface was neither a mirror nor glass
-    std::uint64_t escaped_first = 0; ///< photons that met no surface at all
+    std::uint64_t opaque_first = 0;   ///< photons whose first surface was neither a mirror nor glass
+    std::uint64_t escaped_first = 0;  ///< photons that met no surface at all
     std::uint64_t bounded_shifts = 0; ///< of second-order splats, shortened
     std::uint64_t bounded_footprints = 0; ///< made smaller by the excess policy, or larger by the collapse policy
 

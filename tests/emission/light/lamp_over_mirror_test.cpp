@@ -114,7 +114,8 @@ TEST_CASE("lamps over a mirror: a spot and a sun") {
 }
 
 // A lamp of radius r at distance h is a point of intensity L A, times 1 + O(r²/h²) = 3e-4 for r = 0.05, and that of a
-// plane times the cosine. Their cells in four dimensions know less: 5%, and 10% on the sphere, whose positions turn as well.
+// plane times the cosine. Their cells in four dimensions know less: 5%, and 10% on the sphere,
+// whose positions turn as well.
 TEST_CASE("lamps over a mirror: lamps with an area") {
     constexpr double radius = 0.05, area = pi<double> * radius * radius;
     const auto by_plane = [](const V& at) {
