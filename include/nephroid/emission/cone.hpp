@@ -50,7 +50,7 @@ struct EmissionPair {
 /// How `direction_in` maps the square to a cone.
 template <Vector3 V>
 [[nodiscard]] EmissionPair directions_of(const Cone<V>& cone) {
-    return {Kinks::diagonals, cone.is_everything() ? DomainEdge::closes : Edge::ends};
+    return {Kinks::diagonals, cone.is_everything() ? DomainEdge::closes : DomainEdge::ends};
 }
 
 } // namespace nephroid
