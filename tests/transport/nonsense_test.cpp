@@ -148,21 +148,20 @@ TEST_CASE("nonsense: negative light in one band alone is found too") {
 }
 
 TEST_CASE("nonsense: normals that are not unit end the photon as invalid") {
-    for (const double length : {0.0, 0.5, 0.98, 1.02, 3.0, quiet_nan<double>}) {
-        CAPTURE(length);
-        check_invalid(with_hit([length](PlaneHit& hit) { hit.geometric_normal *= length; }));
-        check_invalid(with_hit([length](PlaneHit& hit) { hit.shading_normal *= length; }));
+    for (const double size : {0.0, 0.5, 0.98, 1.02, 3.0, quiet_nan<double>}) {
+        CAPTURE(size);
+        check_invalid(with_hit([size](PlaneHit& hit) { hit.geometric_normal *= size; }));
+        check_invalid(with_hit([size](PlaneHit& hit) { hit.shading_normal *= size; }));
     }
-    for (const double length : {0.9995, 1.0005}) // as packed normals have it
-        check_valid(
-            with_hit([length](PlaneHit& hit) { hit.geometric_normal *= length, hit.shading_normal *= length; }));
+    for (const double size : {0.9995, 1.0005}) // as packed normals have it
+        check_valid(with_hit([size](PlaneHit& hit) { hit.geometric_normal *= size, hit.shading_normal *= size; }));
 }
 
 TEST_CASE("nonsense: a light whose directions are not unit emits invalid photons") {
-    for (const double length : {0.0, 0.9, 1.02, 2.0, quiet_nan<double>}) {
-        CAPTURE(length);
+    for (const double size : {0.0, 0.9, 1.02, 2.0, quiet_nan<double>}) {
+        CAPTURE(size);
         auto photon = collimated<double>({0, 0, 1}, {0.3, 0, -1});
-        photon.direction *= length;
+        photon.direction *= size;
         check_invalid(Changed{}, photon);
     }
 }

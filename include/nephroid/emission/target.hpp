@@ -48,9 +48,8 @@ template <std::ranges::forward_range R>
 }
 
 /// The directions from a point to the sphere: from inside of it every direction, about that to its centre. The cone is
-/// exact to a few units in
-/// the last place, however narrow it is (but for the widest, from points that all but touch the sphere), and rounded
-/// up, so that no direction is missed.
+/// exact to a few units in the last place, however narrow it is (but for the widest, from points that all but touch the
+/// sphere), and rounded up, so that no direction is missed.
 template <Vector3 V>
 [[nodiscard]] Cone<V> cone_towards(const BoundingSphere<V>& target, const std::type_identity_t<V>& from) {
     using T = scalar_t<V>;
