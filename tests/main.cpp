@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file  Runs the tests; fails where doctest alone would pass: at a filter that matches nothing, and when asked to
-///        list a test that ctest could not run by its name.
+///        list tests of which one could not be run by its name.
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
@@ -29,7 +29,7 @@ public:
         std::set<std::string> names;
         for (unsigned i = 0; i < query.num_data; ++i) {
             const std::string name = query.data[i]->m_name;
-            // ctest splits names at `;`, pairs brackets, and doctest splits at `,` and takes `*` and `?` as wildcards.
+            // CMake splits at `;` and pairs brackets; doctest splits at `,` and takes `*` and `?` as wildcards.
             if (name.find_first_of(";[]\\") != std::string::npos)
                 complain("a test's name must do without ; [ ] and \\: " + name);
             if (!names.insert(name).second)
