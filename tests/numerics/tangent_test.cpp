@@ -3,6 +3,8 @@
 ///        `examples/numerics` prints the table.
 #include "common/numerics/group_table.hpp"
 
+#include "support/is_sanitized.hpp"
+
 #include "nephroid/footprint/policies.hpp"
 
 #include <doctest/doctest.h>
@@ -17,7 +19,7 @@ using namespace nephroid;
 using namespace nephroid::examples::numerics;
 
 constexpr bool has_quadruple = Wide::digits >= 113;
-constexpr std::size_t cases_per_group = 250;
+constexpr std::size_t cases_per_group = tests::is_sanitized ? 50 : 250; // quadruple precision is slow there
 
 std::string described(const Measured& m) {
     std::string text = "case " + std::to_string(m.number) + ", " + m.what + ":";
