@@ -207,21 +207,6 @@ TEST_CASE_TEMPLATE("second order: a straight map's picture is that of plain spla
     CHECK(first.irradiance != std::vector<T>(first.irradiance.size(), T(0)));
 }
 
-TEST_CASE("second order: any number of threads renders the same picture bit for bit") {
-    using V = Vec<float>;
-    const StandardLights<V, float> lights({bulb<V>(), disk<V>(), sun<V>()});
-    // Some of them beyond the pilot.
-    const Default policies{.order = {.pilot = 2000}};
-    const PhotonPass pass{.count = 6000};
-    const auto serial = render(ball<V>(), lights, pass, HaltonSequence(1), SerialExecutor{}, policies);
-    for (const unsigned threads : {1u, 2u, 7u}) {
-        const auto again = render(ball<V>(), lights, pass, HaltonSequence(1), ThreadExecutor(threads), policies);
-        CAPTURE(threads);
-        CHECK(again.irradiance == serial.irradiance);
-        check_same(again.account, serial.account);
-    }
-}
-
 TEST_CASE("second order: photons after the pilot get footprints chosen from the pilot") {
     using V = Vec<double>;
     const auto whole = render(ball<V>(), sun<V>(), {.count = 8000});
