@@ -14,7 +14,7 @@
 #undef NEPHROID_LANGUAGE
 
 #define NEPHROID_VERSION_MAJOR 0
-#define NEPHROID_VERSION_MINOR 1
+#define NEPHROID_VERSION_MINOR 2
 #define NEPHROID_VERSION_PATCH 0
 
 /// One number to compare with: `#if NEPHROID_VERSION >= 200` is 0.2.0 or later.

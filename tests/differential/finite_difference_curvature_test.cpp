@@ -18,6 +18,7 @@
 #include <vector>
 
 using namespace nephroid;
+using detail::draw_point;
 using tests::Draws;
 
 namespace {

@@ -12,6 +12,9 @@
 #include <set>
 
 using namespace nephroid;
+using detail::draw_point;
+using detail::EmissionSample;
+using detail::RecordingSource;
 using tests::GivenSamples;
 
 namespace {

@@ -14,6 +14,7 @@
 #include <stdexcept>
 
 using namespace nephroid;
+using detail::RecordingSource;
 using namespace nephroid::tests;
 
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 
 using namespace nephroid;
+using detail::HasSecondMoment;
 
 namespace {
 

@@ -17,6 +17,11 @@
 #include <numeric>
 
 using namespace nephroid;
+using detail::CoherentOrder;
+using detail::EmissionSample;
+using detail::KeyedPhoton;
+using detail::RecordingSource;
+using detail::z_curve_key;
 
 namespace {
 

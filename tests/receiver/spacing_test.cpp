@@ -9,6 +9,7 @@
 #include <numbers>
 
 using namespace nephroid;
+using detail::point_spacing;
 using tests::Draws;
 using tests::Space;
 using tests::Wide;

@@ -16,6 +16,7 @@
 #include <vector>
 
 using namespace nephroid;
+using detail::nested_uniform_scramble;
 
 namespace {
 

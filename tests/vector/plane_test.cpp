@@ -9,6 +9,11 @@
 #include <limits>
 
 using namespace nephroid;
+using detail::congruent;
+using detail::Plane2;
+using detail::PlaneMatrix;
+using detail::Principal2;
+using detail::Symmetric2;
 using tests::Draws;
 
 namespace {

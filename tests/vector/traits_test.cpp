@@ -82,11 +82,14 @@ static_assert(!Vector3<std::valarray<float>> && !Vector3<float[3]> && !Vector3<f
 static_assert(!Vector3<glm::vec3&> && !Vector3<const glm::vec3> && !Vector3<glm::vec3*>);
 
 // Each part of the concept is asked for.
-static_assert(!nephroid::HasScalar<IntegerVector> && !Vector3<IntegerVector>);
-static_assert(nephroid::HasComponents<ReadsOnly> && !nephroid::MakesFromComponents<ReadsOnly> && !Vector3<ReadsOnly>);
-static_assert(!nephroid::HasComponents<MakesOnly> && nephroid::MakesFromComponents<MakesOnly> && !Vector3<MakesOnly>);
-static_assert(nephroid::HasComponents<MovesOnly> && nephroid::MakesFromComponents<MovesOnly> && !Vector3<MovesOnly>);
-static_assert(!nephroid::MakesFromComponents<AlmostTriple> && !Vector3<AlmostTriple>);
+static_assert(!nephroid::detail::HasScalar<IntegerVector> && !Vector3<IntegerVector>);
+static_assert(nephroid::detail::HasComponents<ReadsOnly> && !nephroid::detail::MakesFromComponents<ReadsOnly> &&
+              !Vector3<ReadsOnly>);
+static_assert(!nephroid::detail::HasComponents<MakesOnly> && nephroid::detail::MakesFromComponents<MakesOnly> &&
+              !Vector3<MakesOnly>);
+static_assert(nephroid::detail::HasComponents<MovesOnly> && nephroid::detail::MakesFromComponents<MovesOnly> &&
+              !Vector3<MovesOnly>);
+static_assert(!nephroid::detail::MakesFromComponents<AlmostTriple> && !Vector3<AlmostTriple>);
 static_assert(!Vector3<std::array<int, 3>>, "traits for every T do not make a vector of integers");
 
 TEST_CASE_TEMPLATE("vector_traits: make and the components are each other's inverse for every vector type", T, float,

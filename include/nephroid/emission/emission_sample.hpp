@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// A point of a light's emission domain.
 struct EmissionSample {
@@ -54,7 +54,6 @@ private:
     unsigned choices_ = 0; // a set's own light may be a set
 };
 
-namespace detail {
 /// Draws the coordinates alone.
 template <class L, class Source>
 void draw_coordinates(const L& light, RecordingSource<Source>& samples) {
@@ -65,14 +64,12 @@ void draw_coordinates(const L& light, RecordingSource<Source>& samples) {
             (void)samples.template next<scalar_t<typename L::vector>>();
     }
 }
-} // namespace detail
-
 /// Where a light would emit a photon with these samples; without emitting it.
 template <class L, class Source>
 [[nodiscard]] EmissionSample draw_point(const L& light, Source& samples) {
     RecordingSource<Source> recorder(samples, coordinates_of<L>);
-    detail::draw_coordinates(light, recorder);
+    draw_coordinates(light, recorder);
     return recorder.sample();
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -9,6 +9,7 @@
 
 namespace nephroid {
 
+namespace detail {
 /// A source of samples that always gives the middle.
 struct MiddleSource {
     template <Scalar T>
@@ -33,6 +34,7 @@ private:
     std::size_t given_ = 0;
     Rest* rest_;
 };
+} // namespace detail
 
 /// The photon that a light emits from a point of its domain: a function of the point, smooth where the light declares
 /// it to be.
@@ -50,14 +52,14 @@ template <class L, class Extras>
 [[nodiscard]] auto emit_at(const L& light, const std::array<double, coordinates_of<L>>& point,
                            const Spread<scalar_t<typename L::vector>>& spread, Extras& extras) {
     static_assert(coordinates_of<L> != 0, "nephroid::emit_at: the light declares no `domain` (emission/light.hpp)");
-    PointSource<coordinates_of<L>, Extras> samples(point, extras);
+    detail::PointSource<coordinates_of<L>, Extras> samples(point, extras);
     return light.emit(samples, spread);
 }
 
 template <class L>
 [[nodiscard]] auto emit_at(const L& light, const std::array<double, coordinates_of<L>>& point,
                            const Spread<scalar_t<typename L::vector>>& spread) {
-    MiddleSource middle;
+    detail::MiddleSource middle;
     return emit_at(light, point, spread, middle);
 }
 

@@ -39,6 +39,7 @@ struct flux_traits<F> {
     [[nodiscard]] static constexpr F zero() { return t::make(0, 0, 0); }
 };
 
+namespace detail {
 template <class F>
 concept HasPower = requires(const F f) {
     { flux_traits<F>::power(f) } -> std::convertible_to<double>;
@@ -50,10 +51,11 @@ concept AddsAndMultiplies = requires(const F a, const F b) {
     { (a + b) } -> std::convertible_to<F>;
     { (a * b) } -> std::convertible_to<F>;
 };
+} // namespace detail
 
 /// A quantity of light: it adds, multiplies band by band (a weight is a flux as well), and has a power.
 template <class F>
-concept Flux = std::copyable<F> && AddsAndMultiplies<F> && HasPower<F>;
+concept Flux = std::copyable<F> && detail::AddsAndMultiplies<F> && detail::HasPower<F>;
 
 /// Scales a flux by a number of the geometry's scalar type.
 template <class F, class T>

@@ -24,6 +24,7 @@
 
 namespace nephroid {
 
+namespace detail {
 template <class K, class T>
 concept MapsRadius2 = requires(const K kernel, const T radius2) {
     { kernel(radius2) } -> std::same_as<T>;
@@ -33,14 +34,15 @@ template <class K>
 concept HasSecondMoment = requires {
     { K::second_moment } -> std::convertible_to<double>;
 };
+} // namespace detail
 
 /// The compiler checks the call; `tests/footprint/kernel_laws.hpp` checks the meaning, for every model.
 template <class K, class T = float>
-concept Kernel = std::semiregular<K> && Scalar<T> && MapsRadius2<K, T>;
+concept Kernel = std::semiregular<K> && Scalar<T> && detail::MapsRadius2<K, T>;
 
 /// The radius of a disk that under kernel K has the variance of a pixel box, in units of the pixel's side:
 /// sqrt((1/12) / second moment). The pixel filter adds this disk to each footprint.
-template <HasSecondMoment K>
+template <detail::HasSecondMoment K>
 inline constexpr double pixel_filter_width = [] {
     const double square = 1.0 / (12.0 * double(K::second_moment));
     double root = 1.0; // Newton: std::sqrt is not constexpr in C++20

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// The position of a sample on a Z-shaped curve through its light's domain [Morton 1966]. It has 16 bits: 8 of each
 /// coordinate of a point or directional light, 4 of each of an area light. The upper 8 bits select one of 256 parts of
@@ -118,7 +118,7 @@ private:
     }
 
     std::vector<KeyedPhoton> photons_;
-    detail::CountingSort<KeyedPhoton> sorted_; ///< by the key's highest byte, then within each part by the others
+    CountingSort<KeyedPhoton> sorted_; ///< by the key's highest byte, then within each part by the others
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

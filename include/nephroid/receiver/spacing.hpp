@@ -13,9 +13,8 @@
 #include <span>
 #include <vector>
 
-namespace nephroid {
+namespace nephroid::detail {
 
-namespace detail {
 /// A small set of points, with an array for each coordinate so that loops over them are vectorised.
 template <Scalar T>
 struct FewPoints {
@@ -143,8 +142,6 @@ void sort_four(std::array<T, 4>& numbers) {
     order(1, 3);
     order(1, 2);
 }
-} // namespace detail
-
 /// The spacing p of a small cloud of points that sample a surface. For a square lattice it is the lattice's side. It is
 /// computed from the few points nearest to the cloud's middle, because their neighbours are all in the cloud, and from
 /// the distances of these points to their nearest neighbours.
@@ -157,7 +154,7 @@ void sort_four(std::array<T, 4>& numbers) {
 /// @return  world units; 0 if all points coincide or there is only one
 template <Scalar T>
 [[nodiscard]] T point_spacing(std::span<const T> x, std::span<const T> y, std::span<const T> z) {
-    detail::FewPoints<T> points(x, y, z);
+    FewPoints<T> points(x, y, z);
     if (points.size < 2)
         return T(0);
     const std::size_t probes = (std::min)(detail::spacing_probes, points.size);
@@ -165,14 +162,14 @@ template <Scalar T>
     // The squared distances of the first n lattice neighbours add up to n p² for n <= 4 and to (2 n − 4) p² beyond.
     const T lattice = neighbours <= 4 ? T(neighbours) : T(2 * neighbours - 4);
 
-    std::array<std::size_t, detail::spacing_probes> centres{};
+    std::array<std::size_t, spacing_probes> centres{};
     points.nearest(std::span(centres).first(probes));
-    std::array<T, detail::spacing_probes> spacing2 =
+    std::array<T, spacing_probes> spacing2 =
         points.template sums_of_nearest<detail::spacing_neighbours + 1>(centres, neighbours + 1);
     for (std::size_t k = 0; k < spacing2.size(); ++k) // points that were not measured are sorted last
         spacing2[k] = k < probes ? spacing2[k] / lattice : std::numeric_limits<T>::infinity();
-    detail::sort_four(spacing2);
+    sort_four(spacing2);
     return sqrt(T(0.5) * (spacing2[(probes - 1) / 2] + spacing2[probes / 2]));
 }
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -15,6 +15,7 @@
 
 namespace nephroid {
 
+namespace detail {
 /// Faure's permutation of the digits 0 to Base - 1. It keeps Base - 1 and 0, so the leading zeros of an index stay
 /// zeros.
 ///
@@ -44,8 +45,6 @@ template <std::uint32_t Base>
     return permutation;
 }
 
-namespace detail {
-
 /// The size of a table that looks up several digits of an index at once: as many as fit into 3 KiB, at least two.
 [[nodiscard]] constexpr std::uint32_t halton_block_size(std::uint32_t base) noexcept {
     std::uint32_t size = base * base;
@@ -73,8 +72,6 @@ inline constexpr auto halton_reversed_digits = [] {
     }
     return reversed;
 }();
-} // namespace detail
-
 /// The radical inverse with Faure's permutation: the digits of the index in an integer base, permuted, in reverse order
 /// behind the point.
 ///
@@ -87,7 +84,7 @@ template <std::floating_point T, std::uint32_t Base>
     if constexpr (Base == 2) {
         return uniform_from_bits<T>(reverse_bits(index));
     } else {
-        constexpr auto& reversed_digits = detail::halton_reversed_digits<Base>;
+        constexpr auto& reversed_digits = halton_reversed_digits<Base>;
         constexpr std::uint64_t block = reversed_digits.size();
         constexpr std::uint64_t last = std::uint64_t((std::numeric_limits<std::int64_t>::max)()) / block;
 
@@ -100,6 +97,8 @@ template <std::floating_point T, std::uint32_t Base>
         return (std::min)(static_cast<T>(value), below_one);
     }
 }
+
+} // namespace detail
 
 /// The Halton sequence: the coordinate of point i in dimension d is the permuted radical inverse of i in the d-th prime
 /// base.
@@ -134,37 +133,37 @@ public:
         const std::uint64_t i = index + starts_[dimension];
         switch (dimension) { // the bases as constants: a division by a constant is a multiplication
         case 0:
-            return faure_radical_inverse<T, 2>(i);
+            return detail::faure_radical_inverse<T, 2>(i);
         case 1:
-            return faure_radical_inverse<T, 3>(i);
+            return detail::faure_radical_inverse<T, 3>(i);
         case 2:
-            return faure_radical_inverse<T, 5>(i);
+            return detail::faure_radical_inverse<T, 5>(i);
         case 3:
-            return faure_radical_inverse<T, 7>(i);
+            return detail::faure_radical_inverse<T, 7>(i);
         case 4:
-            return faure_radical_inverse<T, 11>(i);
+            return detail::faure_radical_inverse<T, 11>(i);
         case 5:
-            return faure_radical_inverse<T, 13>(i);
+            return detail::faure_radical_inverse<T, 13>(i);
         case 6:
-            return faure_radical_inverse<T, 17>(i);
+            return detail::faure_radical_inverse<T, 17>(i);
         case 7:
-            return faure_radical_inverse<T, 19>(i);
+            return detail::faure_radical_inverse<T, 19>(i);
         case 8:
-            return faure_radical_inverse<T, 23>(i);
+            return detail::faure_radical_inverse<T, 23>(i);
         case 9:
-            return faure_radical_inverse<T, 29>(i);
+            return detail::faure_radical_inverse<T, 29>(i);
         case 10:
-            return faure_radical_inverse<T, 31>(i);
+            return detail::faure_radical_inverse<T, 31>(i);
         case 11:
-            return faure_radical_inverse<T, 37>(i);
+            return detail::faure_radical_inverse<T, 37>(i);
         case 12:
-            return faure_radical_inverse<T, 41>(i);
+            return detail::faure_radical_inverse<T, 41>(i);
         case 13:
-            return faure_radical_inverse<T, 43>(i);
+            return detail::faure_radical_inverse<T, 43>(i);
         case 14:
-            return faure_radical_inverse<T, 47>(i);
+            return detail::faure_radical_inverse<T, 47>(i);
         default:
-            return faure_radical_inverse<T, 53>(i);
+            return detail::faure_radical_inverse<T, 53>(i);
         }
     }
 

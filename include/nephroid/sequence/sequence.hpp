@@ -10,6 +10,7 @@
 
 namespace nephroid {
 
+namespace detail {
 template <class S, class T>
 concept SamplesAs = requires(const S sequence, std::uint64_t index, std::uint32_t dimension) {
     { sequence.template sample<T>(index, dimension) } -> std::same_as<T>;
@@ -19,6 +20,7 @@ template <class S>
 concept SaysWhetherStratified = requires {
     typename std::bool_constant<S::stratified>; // a constant expression
 };
+} // namespace detail
 
 /// An infinite sequence of points in the unit cube of any dimension, with random access to each coordinate.
 ///
@@ -38,8 +40,8 @@ concept SaysWhetherStratified = requires {
 ///
 /// The compiler checks the call; `tests/sequence/sequence_laws.hpp` checks the meaning, for every model.
 template <class S>
-concept SampleSequence =
-    std::copy_constructible<S> && SamplesAs<S, float> && SamplesAs<S, double> && SaysWhetherStratified<S>;
+concept SampleSequence = std::copy_constructible<S> && detail::SamplesAs<S, float> && detail::SamplesAs<S, double> &&
+    detail::SaysWhetherStratified<S>;
 
 namespace detail {
 template <class S>

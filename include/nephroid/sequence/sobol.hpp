@@ -109,6 +109,7 @@ inline constexpr auto sobol_tables = [] {
     return detail::reverse_bits32(detail::sobol_digits(index, dimension));
 }
 
+namespace detail {
 /// Owen's nested uniform scrambling of 32 binary digits, the first one in the lowest bit: whether a digit flips is a
 /// random function of the digits before it.
 ///
@@ -126,6 +127,7 @@ inline constexpr auto sobol_tables = [] {
     x ^= x * 0x499ed6ceu;
     return x;
 }
+} // namespace detail
 
 /// The Sobol' sequence, with each dimension scrambled by itself, at random among the scramblings that keep its
 /// structure.
@@ -159,7 +161,7 @@ public:
 
         const auto low = static_cast<std::uint32_t>(index), high = static_cast<std::uint32_t>(index >> 32);
         const std::uint64_t key = high == 0 ? keys_[dimension] : hash_bits(keys_[dimension], high);
-        const std::uint32_t digits = nested_uniform_scramble(detail::sobol_digits(low, dimension), key);
+        const std::uint32_t digits = detail::nested_uniform_scramble(detail::sobol_digits(low, dimension), key);
         return uniform_from_bits<T>(detail::reverse_bits32(digits));
     }
 

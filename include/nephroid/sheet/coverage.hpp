@@ -4,7 +4,7 @@
 /// In the footprint's own coordinates (s, t) it is the unit square. By Green's theorem the area of a polygon within the
 /// square is the sum over its edges of ∫ clamp(s, 0, 1) dt, t clamped to [0, 1] as well. Along an edge clamp(s) is
 /// piecewise linear, and its integral a difference of the same two numbers above and below a quotient: nothing cancels
-/// [include/nephroid/README.md].
+/// [include/nephroid/README.md, "Exact coverage"].
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"

@@ -6,7 +6,7 @@
 ///
 ///     E = Σ_edges (w_left − w_right) · edge_integral / (n · n_vertex)
 ///
-/// [include/nephroid/README.md]. No division by an area is left in the loop.
+/// [include/nephroid/README.md, "Each edge once"]. No division by an area is left in the loop.
 #pragma once
 
 #include "nephroid/emission/flux.hpp"

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// Solves Σ_i row_i x_i = right for many rows, each with a weight, in the least-squares sense.
 ///
@@ -75,4 +75,4 @@ private:
     std::array<Value, N> right_{};
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nephroid {
+namespace nephroid::detail {
 
 /// A vector of the plane.
 struct Plane2 {
@@ -79,4 +79,4 @@ struct Principal2 {
     }
 };
 
-} // namespace nephroid
+} // namespace nephroid::detail

@@ -28,6 +28,7 @@ namespace nephroid {
 template <class V>
 struct vector_traits;
 
+namespace detail {
 template <class V>
 concept HasVectorTraits = requires {
     sizeof(vector_traits<V>);
@@ -47,10 +48,12 @@ template <class V>
 concept MakesFromComponents = HasScalar<V> && requires(const typename vector_traits<V>::scalar s) {
     { vector_traits<V>::make(s, s, s) } -> std::convertible_to<V>;
 };
+} // namespace detail
 
 /// A vector of three components of one scalar type, described by `vector_traits`.
 template <class V>
-concept Vector3 = std::copyable<V> && HasVectorTraits<V> && HasScalar<V> && HasComponents<V> && MakesFromComponents<V>;
+concept Vector3 = std::copyable<V> && detail::HasVectorTraits<V> && detail::HasScalar<V> && detail::HasComponents<V> &&
+    detail::MakesFromComponents<V>;
 
 namespace detail {
 /// Says what is missing in the first line of the compiler's message.
