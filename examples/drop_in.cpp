@@ -15,16 +15,16 @@ using Scattering = nephroid::Scattering<float, float>;
 
 // Your scene: it finds hits, says how the normal changes there, and what the surface does with light.
 struct Scene {
-    Vec center{0, 0, 1.3f};
+    Vec centre{0, 0, 1.3f};
     float radius = 1, glass = 1.5f;
 
     std::optional<Hit> intersect(Vec origin, Vec direction, float t_min, float t_max) const {
-        const Vec to_origin = origin - center;
+        const Vec to_origin = origin - centre;
         const float b = glm::dot(to_origin, direction), c = glm::dot(to_origin, to_origin) - radius * radius;
         if (const float root = b * b - c; root > 0)
             for (const float t : {-b - std::sqrt(root), -b + std::sqrt(root)})
                 if (t > t_min && t < t_max) {
-                    const Vec normal = glm::normalize(to_origin + t * direction), at = center + radius * normal;
+                    const Vec normal = glm::normalize(to_origin + t * direction), at = centre + radius * normal;
                     return Hit{t,
                                at,
                                normal,

@@ -129,28 +129,28 @@ template <class T, Flux F>
 [[nodiscard]] BuiltinCase<T, F> ring_disk_case(FilmRectangle film) {
     const double radius = 0.15, distance = 4;
     const double radiance = (square(radius) + square(distance)) / (pi<double> * square(radius) * sin(ring_elevation));
-    const Vec3<T> center(T(-distance * cos(ring_elevation)), T(0), T(distance * sin(ring_elevation)));
+    const Vec3<T> centre(T(-distance * cos(ring_elevation)), T(0), T(distance * sin(ring_elevation)));
     // The smallest sphere about the half cylinder: its four corners are on it.
     const double reach = sqrt(1 + square(ring_height / 2));
     const BoundingSphere<Vec3<T>> mirror{{0, 0, T(ring_height / 2)},
                                          T(reach) * (1 + 8 * std::numeric_limits<T>::epsilon())};
     const DiskLight<Vec3<T>, F> disk(
-        {.center = center, .normal = -center, .radius = T(radius), .radiance = grey<F>(radiance), .target = mirror});
+        {.centre = centre, .normal = -centre, .radius = T(radius), .radiance = grey<F>(radiance), .target = mirror});
     return {ring_scene<T, F>(T(ring_height)),
             CaseLight<T, F>({disk}),
             film,
             false,
-            {Emitter<T, F>::disk(center, -center, T(radius), grey<F>(radiance))}};
+            {Emitter<T, F>::disk(centre, -centre, T(radius), grey<F>(radiance))}};
 }
 
 template <class T, Flux F>
 [[nodiscard]] BuiltinCase<T, F> ball_case(bool point, bool fresnel) {
     using Materials = std::vector<Material<F>>;
-    const Vec3<T> center(0, 0, T(1.25));
+    const Vec3<T> centre(0, 0, T(1.25));
     Scene<T, F> scene(
-        {{Floor<T>(0), 0}, {Sphere<T>(center, 1), 1}},
+        {{Floor<T>(0), 0}, {Sphere<T>(centre, 1), 1}},
         Materials{Material<F>::diffuse(grey<F>(1)), Material<F>::dielectric(1.5, fresnel, Follow::refraction)});
-    const BoundingSphere<Vec3<T>> ball{center, 1};
+    const BoundingSphere<Vec3<T>> ball{centre, 1};
     std::vector<typename CaseLight<T, F>::AnyLight> light;
     if (point)
         light.push_back(

@@ -101,7 +101,7 @@ template <class T>
             origin = origin - back * direction;
     };
     if (auto* disk = std::get_if<BeamDisk<Vec3<T>>>(&patch))
-        move(disk->center);
+        move(disk->centre);
     if (auto* parallelogram = std::get_if<Parallelogram<Vec3<T>>>(&patch))
         move(parallelogram->corner); // across the beam: any corner will do
     return patch;
@@ -113,7 +113,7 @@ template <class T>
                                                          const BoundingSphere<Vec3<T>>& target) {
     std::erase_if(triangles, [&](const std::array<Vec3<T>, 3>& t) {
         const Vec3<T> normal = normalize(cross(t[1] - t[0], t[2] - t[0]));
-        return dot(target.center - t[0], normal) <= -target.radius;
+        return dot(target.centre - t[0], normal) <= -target.radius;
     });
     return triangles;
 }

@@ -134,7 +134,7 @@ std::optional<TriangleHit> World::nearest(const Vec& o, const Vec& d, float t_mi
 }
 #endif
 
-void add_ball(std::vector<Triangle>& triangles, const Vec& center, float radius, int longitudes, int latitudes) {
+void add_ball(std::vector<Triangle>& triangles, const Vec& centre, float radius, int longitudes, int latitudes) {
     const double pi = std::numbers::pi;
     const auto normal = [&](int i, int j) {
         const double theta = pi * j / latitudes, phi = 2 * pi * (i % longitudes) / longitudes;
@@ -142,7 +142,7 @@ void add_ball(std::vector<Triangle>& triangles, const Vec& center, float radius,
                    float(std::cos(theta)));
     };
     const auto add = [&](const Vec& a, const Vec& b, const Vec& c) {
-        triangles.push_back({{center + radius * a, center + radius * b, center + radius * c}, {a, b, c}, true});
+        triangles.push_back({{centre + radius * a, centre + radius * b, centre + radius * c}, {a, b, c}, true});
     };
     for (int j = 0; j < latitudes; ++j)
         for (int i = 0; i < longitudes; ++i) {

@@ -41,10 +41,10 @@ public:
 
 class Sphere : public Shape {
 public:
-    Sphere(Vec center, float radius, int material) : center_(center), radius_(radius), material_(material) {}
+    Sphere(Vec centre, float radius, int material) : centre_(centre), radius_(radius), material_(material) {}
 
     bool intersect(const Ray& ray, Hit& hit) const override {
-        const Vec o = ray.origin - center_;
+        const Vec o = ray.origin - centre_;
         const float middle = -Vec::Dot(o, ray.direction);
         const Vec closest = o + ray.direction * middle;
         const float half_chord2 = radius_ * radius_ - Vec::Dot(closest, closest);
@@ -60,7 +60,7 @@ public:
     }
 
 private:
-    Vec center_;
+    Vec centre_;
     float radius_;
     int material_;
 };

@@ -40,7 +40,7 @@ scalar_t<V> area_of(const BeamPatch<V>& patch) {
 template <class V>
 bool lights(const BeamPatch<V>& patch, const V& direction, const V& p) {
     if (const auto* disk = std::get_if<BeamDisk<V>>(&patch)) {
-        const V d = p - disk->center;
+        const V d = p - disk->centre;
         return dot(d, direction) > 0 && length(V(d - dot(d, direction) * direction)) <= disk->radius;
     }
     const auto& quad = std::get<Parallelogram<V>>(patch);

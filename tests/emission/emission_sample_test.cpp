@@ -38,7 +38,7 @@ template <class T>
 
 template <class T>
 [[nodiscard]] DiskLight<Vec<T>, T> disk() {
-    return DiskLight<Vec<T>, T>({.center = {0, 0, 2}, .normal = {0, 0, -1}, .radius = 1, .radiance = 3});
+    return DiskLight<Vec<T>, T>({.centre = {0, 0, 2}, .normal = {0, 0, -1}, .radius = 1, .radiance = 3});
 }
 
 /// What a light draws for photon i, checked against what it emits without a recorder.

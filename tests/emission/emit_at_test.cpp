@@ -29,7 +29,7 @@ TEST_CASE("emit at: the photon of a point is the one that draws the point") {
     GivenSamples two({0.25, 0.75});
     CHECK(same_bits(emit_at(lamp, {0.25, 0.75}, spread), lamp.emit(two, spread)));
 
-    const DiskLight<D, double> disk({.center = {0, 0, 2}, .normal = {0, 0, -1}, .radius = 1, .radiance = 3});
+    const DiskLight<D, double> disk({.centre = {0, 0, 2}, .normal = {0, 0, -1}, .radius = 1, .radiance = 3});
     GivenSamples four({0.1, 0.9, 0.3, 0.6});
     CHECK(same_bits(emit_at(disk, {0.1, 0.9, 0.3, 0.6}, spread), disk.emit(four, spread)));
 }

@@ -89,7 +89,7 @@ TEST_CASE("light set: lights of several kinds add up their fluxes") {
     const BoundingSphere<D> target{{0, 0, 0}, 1};
     const Lights set({Point({.position = {0, 0, 4}, .intensity = 5, .target = target}),
                       DiskLight<D, double>(
-                          {.center = {0, 3, 3}, .normal = {0, -1, -1}, .radius = 1, .radiance = 1, .target = target}),
+                          {.centre = {0, 3, 3}, .normal = {0, -1, -1}, .radius = 1, .radiance = 1, .target = target}),
                       DirectionalLight<D, double>({.direction = {1, 1, -1}, .irradiance = 2, .patch = target})});
     const Mean disk = flux_of(std::get<DiskLight<D, double>>(set.lights()[1]), 50000);
     const double expected =

@@ -26,7 +26,7 @@ using Wide = std::conditional_t<std::is_same_v<T, float>, double, long double>;
 template <class T>
 Wide<T> exact_height(const BoundingSphere<glm::vec<3, T>>& sphere, const glm::vec<3, T>& from) {
     using W = Wide<T>;
-    const W x = W(sphere.center.x) - W(from.x), y = W(sphere.center.y) - W(from.y), z = W(sphere.center.z) - W(from.z);
+    const W x = W(sphere.centre.x) - W(from.x), y = W(sphere.centre.y) - W(from.y), z = W(sphere.centre.z) - W(from.z);
     const W distance2 = x * x + y * y + z * z, sine2 = W(sphere.radius) * W(sphere.radius) / distance2;
     return sine2 < 1 ? sine2 / (1 + std::sqrt(1 - sine2)) : W(2);
 }
@@ -45,7 +45,7 @@ TEST_CASE_TEMPLATE("target: a bounding sphere holds its points and is at most sq
             const auto sphere = bounding_sphere(points);
             T furthest = 0;
             for (const V& p : points) {
-                CHECK(length(V(p - sphere.center)) <= sphere.radius);
+                CHECK(length(V(p - sphere.centre)) <= sphere.radius);
                 for (const V& q : points)
                     furthest = (std::max)(furthest, length(V(p - q)));
             }
@@ -59,9 +59,9 @@ TEST_CASE_TEMPLATE("target: a bounding sphere holds its points and is at most sq
 TEST_CASE("target: the corners of a box have its circumscribed sphere") {
     const std::vector<glm::dvec3> corners{{1, 2, 3}, {3, 6, 7}};
     const auto sphere = bounding_sphere(corners);
-    CHECK(sphere.center.x == 2);
-    CHECK(sphere.center.y == 4);
-    CHECK(sphere.center.z == 5);
+    CHECK(sphere.centre.x == 2);
+    CHECK(sphere.centre.y == 4);
+    CHECK(sphere.centre.z == 5);
     CHECK(sphere.radius == doctest::Approx(3).epsilon(1e-14)); // sqrt(1 + 4 + 4), up to 8 units in the last place more
 }
 
@@ -80,10 +80,10 @@ TEST_CASE_TEMPLATE("target: a cone is never narrower than its sphere and hardly 
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const auto at = [&](std::uint32_t d) { return random.sample<T>(i, d); };
         const T size = std::pow(T(10), 10 * at(0) - 5), offset = i % 2 == 0 ? T(0) : T(1e5);
-        const V center = V(offset) + size * V(at(1), at(2), at(3));
+        const V centre = V(offset) + size * V(at(1), at(2), at(3));
         const V from = V(offset) + size * V(at(4), at(5), at(6));
         const T ratio = i % 4 < 2 ? std::pow(T(10), -8 * at(7)) : 1 - std::pow(T(10), -7 * at(7));
-        const BoundingSphere<V> sphere{center, ratio * length(V(center - from))};
+        const BoundingSphere<V> sphere{centre, ratio * length(V(centre - from))};
         if (!(sphere.radius > 0))
             continue;
         const auto exact = exact_height<T>(sphere, from);
@@ -104,11 +104,11 @@ TEST_CASE("target: points of the sphere are in the cone and points beside it are
     const Cone<V> cone = cone_towards(sphere, from);
     for (std::uint64_t i = 0; i < 1000; ++i) {
         const V direction = sphere_direction<V>(random.sample<double>(i, 0), random.sample<double>(i, 1));
-        const V to_point = normalize(V(sphere.center + sphere.radius * direction - from));
+        const V to_point = normalize(V(sphere.centre + sphere.radius * direction - from));
         CHECK(0.5 * length2(V(to_point - cone.axis)) <= cone.height);
         // A ray meets the sphere if its closest approach does.
-        const double closest = length(cross(direction, V(sphere.center - from)));
-        const bool hits = closest < sphere.radius && dot(direction, V(sphere.center - from)) > 0;
+        const double closest = length(cross(direction, V(sphere.centre - from)));
+        const bool hits = closest < sphere.radius && dot(direction, V(sphere.centre - from)) > 0;
         if (std::abs(closest - sphere.radius) > 1e-9)
             CHECK(hits == (0.5 * length2(V(direction - cone.axis)) < cone.height));
     }

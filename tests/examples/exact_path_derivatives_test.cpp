@@ -167,11 +167,11 @@ TEST_CASE("exact path derivatives: through the examples' sphere they are those o
     };
     const auto end = [](const WideRay& ray) {
         const Wide one(1), index(1.5);
-        const Space center = point(0, 0, 1.25);
-        const Space in = tests::on_sphere(ray.origin - center, ray.direction, one, false);
+        const Space centre = point(0, 0, 1.25);
+        const Space in = tests::on_sphere(ray.origin - centre, ray.direction, one, false);
         const Space inside = tests::bent(ray.direction, in.unit(), one / index);
         const Space out = tests::on_sphere(in, inside, one, true);
-        return on_floor({out + center, tests::bent(inside, Wide(-1) * out.unit(), index)});
+        return on_floor({out + centre, tests::bent(inside, Wide(-1) * out.unit(), index)});
     };
     check(PointLight<Vec3<double>, double>(
               {.position = {0.5, 0, 5}, .intensity = 1, .target = BoundingSphere<Vec3<double>>{{0, 0, 1.25}, 0.7}}),

@@ -128,12 +128,12 @@ TEST_CASE_TEMPLATE("mesh: of coincident triangles one is hit at their distance",
 TEST_CASE_TEMPLATE("mesh: no ray leaves a closed mesh through a crack", T, float, double) {
     for (const double away : {0.0, 1000.0}) {
         Numbers numbers(6);
-        const Vec3<T> center = Vec3<T>(T(away), T(-0.7 * away), T(0.3 * away));
-        const TriangleMesh<T> mesh(globe<T>(40, 0.1, center));
+        const Vec3<T> centre = Vec3<T>(T(away), T(-0.7 * away), T(0.3 * away));
+        const TriangleMesh<T> mesh(globe<T>(40, 0.1, centre));
         const auto& data = mesh.data();
         int missed = 0;
         for (int i = 0; i < 60000; ++i) {
-            const Vec3<T> origin = center + numbers.point<T>(-0.4, 0.4);
+            const Vec3<T> origin = centre + numbers.point<T>(-0.4, 0.4);
             const auto& triangle = data.triangles[std::size_t(numbers(0, double(data.triangles.size())))];
             const Vec3<T> a = data.positions[triangle[0]], b = data.positions[triangle[1]];
             const T along = i % 3 == 0 ? T(0) : T(numbers(0, 1));

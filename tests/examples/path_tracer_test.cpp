@@ -68,9 +68,9 @@ private:
 /// and its density along the line is known, as the height at which light meets the column says how far it gets.
 class RingSums {
 public:
-    RingSums(const Vec& center, double radius, double radiance, const exact::Film& film)
-        : center_(center), radius_(radius), radiance_(radiance), film_(film),
-          image_(std::size_t(film.width) * std::size_t(film.height)), normal_(normalize(-center)),
+    RingSums(const Vec& centre, double radius, double radiance, const exact::Film& film)
+        : centre_(centre), radius_(radius), radiance_(radiance), film_(film),
+          image_(std::size_t(film.width) * std::size_t(film.height)), normal_(normalize(-centre)),
           across_(frame_about(normal_)) {}
 
     /// @param rays  points of the lattice over the disk and the columns
@@ -81,7 +81,7 @@ public:
         for (std::size_t i = 0; i < rays; ++i) {
             const auto [a, b, c] = lattice[i];
             const DiskPoint<double> disk = concentric_disk(a, b);
-            const Vec from = center_ + radius_ * (disk.x * across_.u + disk.y * across_.v);
+            const Vec from = centre_ + radius_ * (disk.x * across_.u + disk.y * across_.v);
             add_column(from, pi<double> * (c - 0.5), pi<double> * pi<double> * square(radius_) / double(rays));
         }
         return image_;
@@ -153,7 +153,7 @@ private:
                (std::max)(start.y, end.y) < film_.y_min || (std::min)(start.y, end.y) > film_.y_max;
     }
 
-    Vec center_;
+    Vec centre_;
     double radius_, radiance_;
     exact::Film film_;
     exact::Image image_;
@@ -241,7 +241,7 @@ constexpr double sky_radius = 1e5;
 /// irradiance.
 [[nodiscard]] Case under_sky(examples::Scene<double, double> scene) {
     const Vec up(0, 0, 10), down(0, 0, -1);
-    const DiskLight<Vec, double> light({.center = up, .normal = down, .radius = sky_radius, .radiance = 1});
+    const DiskLight<Vec, double> light({.centre = up, .normal = down, .radius = sky_radius, .radiance = 1});
     return {std::move(scene),
             CaseLight<double, double>({light}),
             {-0.5, 0.5, -0.5, 0.5},
@@ -279,7 +279,7 @@ void check_ring(const FilmRectangle& film, bool once, unsigned passes, unsigned 
     options.specular_events = once ? 1 : 1u << 16;
     SerialExecutor serial;
     const PathTracedReference traced = path_trace_reference(ring, size, size, options, serial);
-    RingSums sums(disk.center, disk.radius, disk.radiance, film_of(film, size));
+    RingSums sums(disk.centre, disk.radius, disk.radiance, film_of(film, size));
     check_agreement(compare(traced, sums.irradiance(200'000, once)), double(passes));
 }
 
@@ -290,9 +290,9 @@ TEST_CASE("path tracer: the sums that it is compared with become the exact ring 
     const exact::Film film{-0.1, 2.1, -1.1, 1.1, 11, 11};
     // 1e5 away and of radius 1 the disk's rays differ by 1e-5; irradiance 1 at the origin as the sun's.
     const double elevation = 35 * pi<double> / 180, distance = 1e5;
-    const Vec center(-distance * std::cos(elevation), 0, distance * std::sin(elevation));
+    const Vec centre(-distance * std::cos(elevation), 0, distance * std::sin(elevation));
     for (const bool once : {false, true}) {
-        RingSums sums(center, 1, square(distance) / (pi<double> * std::sin(elevation)), film);
+        RingSums sums(centre, 1, square(distance) / (pi<double> * std::sin(elevation)), film);
         const exact::Image image = sums.irradiance(50'000, once);
         const exact::Image truth = exact::ring({once ? exact::Reflections::one : exact::Reflections::any}, film);
         CHECK(exact::worst_difference(image, truth, 0.1) < 0.01);
@@ -331,11 +331,11 @@ TEST_CASE("path tracer: the ring under a disk agrees with sums along the light's
 TEST_CASE("path tracer: the ball under a sphere of light agrees with sums along the light's own way") {
     const double radius = 0.6;
     Case ball = builtin_case<double, double>("ball-point", false).value();
-    const Vec center(0, 0, 5.25);
+    const Vec centre(0, 0, 5.25);
     const double radiance = 16 / (pi<double> * square(radius));     // 16 W/sr
     ball.light = CaseLight<double, double>({DiskLight<Vec, double>( // paths do not ask it
-        {.center = center, .normal = {0, 0, -1}, .radius = radius, .radiance = radiance})});
-    ball.emitters = {Emitter<double, double>::sphere(center, radius, radiance)};
+        {.centre = centre, .normal = {0, 0, -1}, .radius = radius, .radiance = radiance})});
+    ball.emitters = {Emitter<double, double>::sphere(centre, radius, radiance)};
     ball.film = {-0.3, 0.3, -0.3, 0.3};
     PathTraceOptions options = few(32 * 40);
     options.samples_per_pass = 40;
@@ -347,10 +347,10 @@ TEST_CASE("path tracer: the ball under a sphere of light agrees with sums along 
 // Radiance is the same along a ray before and behind the ball, so its irradiance is that of a ball that glows:
 // π R² h / d³ on the floor, h below its centre and d away from it. That is a pixel's integral in closed form.
 TEST_CASE("path tracer: under a uniform sky a glass ball is as bright as the sky") {
-    const Vec center(0, 0, 1.25);
-    const double h = center.z;
+    const Vec centre(0, 0, 1.25);
+    const double h = centre.z;
     examples::Scene<double, double> scene(
-        {{Floor<double>(0), 0}, {Sphere<double>(center, 1), 1}},
+        {{Floor<double>(0), 0}, {Sphere<double>(centre, 1), 1}},
         Materials{Material<double>::diffuse(1), Material<double>::dielectric(1.5, false, Follow::refraction)});
     const Case ball = under_sky(std::move(scene));
     const std::size_t size = 4;
@@ -464,7 +464,7 @@ TEST_CASE("path tracer: the disk's photons bring the mirror all the light that p
     const Case ring = builtin_case<double, double>("ring-disk", false).value();
     const Emitter<double, double>& disk = ring.emitters.front();
     const exact::Film all{-3, 2, -3, 3, 10, 12};
-    const exact::Image sums = RingSums(disk.center, disk.radius, disk.radiance, all).irradiance(100'000);
+    const exact::Image sums = RingSums(disk.centre, disk.radius, disk.radiance, all).irradiance(100'000);
     const double landed = exact::mean(sums) * 30;
     const HaltonSequence halton;
     Statistics account;

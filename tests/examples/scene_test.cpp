@@ -184,7 +184,7 @@ TEST_CASE_TEMPLATE("scene: the bounds of what is specular hold it and nothing el
     CHECK(scene.has_specular());
     const auto bounds = scene.specular_bounds();
     REQUIRE(bounds.has_value());
-    CHECK(nephroid::length(Vec3<T>(bounds->center - Vec3<T>(1, 2, 3))) < T(1e-5));
+    CHECK(nephroid::length(Vec3<T>(bounds->centre - Vec3<T>(1, 2, 3))) < T(1e-5));
     CHECK(bounds->radius >= 1);
     CHECK(bounds->radius < T(1.74)); // of a cube about it, √3
 

@@ -96,10 +96,10 @@ int hit_at_random(const Shape& shape, const Implicit& surface, double spread, un
 } // namespace
 
 TEST_CASE_TEMPLATE("sphere: hits lie on it with its normal and curvature", T, float, double) {
-    const Vec3<T> center(T(0.5), T(-0.25), T(0.75));
+    const Vec3<T> centre(T(0.5), T(-0.25), T(0.75));
     const T radius = T(1.5);
-    const Implicit surface{[&](const RealVec3& p) { return norm(p - RealVec3(center)) - Real(radius); }};
-    CHECK(hit_at_random<T>(Sphere<T>(center, radius), surface, 1.5, 1) > 500);
+    const Implicit surface{[&](const RealVec3& p) { return norm(p - RealVec3(centre)) - Real(radius); }};
+    CHECK(hit_at_random<T>(Sphere<T>(centre, radius), surface, 1.5, 1) > 500);
 }
 
 TEST_CASE_TEMPLATE("sphere: a ray from within hits the other side at the chord's length", T, float, double) {
@@ -113,15 +113,15 @@ TEST_CASE_TEMPLATE("sphere: a ray from within hits the other side at the chord's
 
 TEST_CASE_TEMPLATE("sphere: far away and small it is still hit to the rounding of its coordinates", T, float, double) {
     const T far = 1000;
-    const Vec3<T> center(far, -far, far);
-    const Sphere<T> sphere(center, T(0.5));
+    const Vec3<T> centre(far, -far, far);
+    const Sphere<T> sphere(centre, T(0.5));
     Numbers numbers(3);
     for (int i = 0; i < 300; ++i) {
-        const Ray<T> ray = ray_towards(numbers.point<T>(-1, 1), Vec3<T>(center + numbers.point<T>(-0.2, 0.2)));
+        const Ray<T> ray = ray_towards(numbers.point<T>(-1, 1), Vec3<T>(centre + numbers.point<T>(-0.2, 0.2)));
         const auto found = sphere.nearest(ray, infinity);
         REQUIRE(found.has_value());
         const Hit<T> hit = sphere.hit(ray, *found);
-        CHECK(std::abs(norm(RealVec3(hit.position) - RealVec3(center)) - 0.5L) <= Real(hit.position_error));
+        CHECK(std::abs(norm(RealVec3(hit.position) - RealVec3(centre)) - 0.5L) <= Real(hit.position_error));
         CHECK(Real(hit.position_error) < 64 * epsilon<T> * Real(far));
     }
 }
@@ -169,19 +169,19 @@ TEST_CASE_TEMPLATE("quad: hits lie in it and nothing beyond its edges is hit", T
 }
 
 TEST_CASE_TEMPLATE("disk: hits lie in it and nothing beyond its rim is hit", T, float, double) {
-    const Vec3<T> center(T(0.25), 0, T(0.5)), normal(1, 2, 3);
-    const Disk<T> disk(center, normal, T(1.5));
+    const Vec3<T> centre(T(0.25), 0, T(0.5)), normal(1, 2, 3);
+    const Disk<T> disk(centre, normal, T(1.5));
     const RealVec3 n = RealVec3(normal) / norm(RealVec3(normal));
-    const Implicit surface{[&](const RealVec3& p) { return glm::dot(p - RealVec3(center), n); }};
+    const Implicit surface{[&](const RealVec3& p) { return glm::dot(p - RealVec3(centre), n); }};
     CHECK(hit_at_random<T>(disk, surface, 1, 5) > 300);
     const Vec3<T> across = nephroid::frame_about(nephroid::normalize(normal)).u;
     const Vec3<T> eye(1, 1, 5);
-    CHECK(disk.nearest(ray_towards(eye, Vec3<T>(center + T(1.49) * across)), infinity).has_value());
-    CHECK(!disk.nearest(ray_towards(eye, Vec3<T>(center + T(1.51) * across)), infinity));
+    CHECK(disk.nearest(ray_towards(eye, Vec3<T>(centre + T(1.49) * across)), infinity).has_value());
+    CHECK(!disk.nearest(ray_towards(eye, Vec3<T>(centre + T(1.51) * across)), infinity));
     for (int i = 0; i < 8; ++i) { // its box holds its rim
         const auto frame = nephroid::frame_about(nephroid::normalize(normal));
         const T phi = T(i);
-        const Vec3<T> p = center + T(1.5) * (std::cos(phi) * frame.u + std::sin(phi) * frame.v);
+        const Vec3<T> p = centre + T(1.5) * (std::cos(phi) * frame.u + std::sin(phi) * frame.v);
         for (int axis = 0; axis < 3; ++axis) {
             CHECK(p[axis] >= disk.bounds().min[axis]);
             CHECK(p[axis] <= disk.bounds().max[axis]);

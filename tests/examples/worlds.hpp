@@ -54,7 +54,7 @@ struct ListSampler {
 
 /// A closed mesh about the centre: radius 1 + bump sin(5θ) cos(6φ), with its radial directions as normals.
 template <class T>
-MeshData<T> globe(unsigned rings, double bump = 0, const Vec3<T>& center = Vec3<T>(0)) {
+MeshData<T> globe(unsigned rings, double bump = 0, const Vec3<T>& centre = Vec3<T>(0)) {
     MeshData<T> mesh;
     const unsigned columns = 2 * rings;
     for (unsigned j = 0; j <= rings; ++j)
@@ -65,7 +65,7 @@ MeshData<T> globe(unsigned rings, double bump = 0, const Vec3<T>& center = Vec3<
             const double r = is_pole ? 1 : 1 + bump * std::sin(5 * theta) * std::cos(6 * phi);
             // All columns meet at the very same pole.
             const Vec3<double> unit = is_pole ? Vec3<double>(0, 0, j == 0 ? 1 : -1) : n;
-            mesh.positions.push_back(center + Vec3<T>(r * unit));
+            mesh.positions.push_back(centre + Vec3<T>(r * unit));
             mesh.normals.push_back(Vec3<T>(unit));
         }
     const auto at = [columns](unsigned i, unsigned j) { return j * columns + i % columns; };

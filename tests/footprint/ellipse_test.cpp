@@ -157,7 +157,7 @@ TEST_CASE_TEMPLATE("ellipse: the radii are the singular values from circles to n
 }
 
 // |x(φ)|² is a constant plus a cosine of 2φ: m steps miss its extremes by (π/m)² of its amplitude at most.
-TEST_CASE_TEMPLATE("ellipse: the radii are the longest and the shortest way to the outline", T, float, double) {
+TEST_CASE_TEMPLATE("ellipse: the radii are the longest and the shortest distance to the outline", T, float, double) {
     Draws draw(3);
     constexpr int m = 1024;
     const double missed = 2 * std::pow(std::numbers::pi / m, 2);
@@ -215,7 +215,7 @@ TEST_CASE_TEMPLATE("ellipse: a scaled ellipse has the same shape bit for bit", T
     }
 }
 
-TEST_CASE_TEMPLATE("ellipse: the box touches the outline on all sides and nothing sticks out", T, float, double) {
+TEST_CASE_TEMPLATE("ellipse: the box touches the outline on all sides and contains it", T, float, double) {
     Draws draw(5);
     constexpr int m = 2048;
     for (int i = 0; i < 50; ++i) {
@@ -265,7 +265,7 @@ TEST_CASE_TEMPLATE("filter matrix: takes the semi-axes to unit vectors and the o
     });
 }
 
-TEST_CASE_TEMPLATE("anisotropy: the axis ratio is exact", T, float, double) {
+TEST_CASE_TEMPLATE("ellipse: the axis ratio is exact", T, float, double) {
     Draws draw(7);
     for (int i = 0; i < 200; ++i) {
         const bool orthogonal = i % 4 == 0;
@@ -328,7 +328,7 @@ TEST_CASE("add_disk: a needle a million times longer than wide keeps the digits 
     }
 }
 
-TEST_CASE_TEMPLATE("add_disk: what has collapsed becomes a disk or a stadium's ellipse", T, float, double) {
+TEST_CASE_TEMPLATE("add_disk: a point becomes a disk and a line segment becomes an ellipse", T, float, double) {
     const Vec<T> zero{0, 0, 0}, n{0, 0, -1}, long_axis{3, 4, 0};
     const auto check = [](const Ellipse<Vec<T>>& e, double major, double minor) {
         const auto sigma = radii(e);
@@ -345,7 +345,7 @@ TEST_CASE_TEMPLATE("add_disk: what has collapsed becomes a disk or a stadium's e
 }
 
 // C(t) − C(0) = t² e eᵀ (and t (a eᵀ + e aᵀ) when a changes): no jump, however a footprint collapses.
-TEST_CASE_TEMPLATE("add_disk: is continuous through collapse", T, float, double) {
+TEST_CASE_TEMPLATE("add_disk: the ellipse is continuous through collapse", T, float, double) {
     Draws draw(10);
     const double least = std::is_same_v<T, float> ? 1e-30 : 1e-300;
     for (int i = 0; i < 20; ++i) {
@@ -395,7 +395,7 @@ TEST_CASE_TEMPLATE("footprint: any number of tangents adds up to the ellipse of 
     });
 }
 
-TEST_CASE_TEMPLATE("footprint: a tangent that is no number makes no footprint of the others", T, float, double) {
+TEST_CASE_TEMPLATE("footprint: a tangent that is not finite makes the footprint not finite", T, float, double) {
     for (const T bad : {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()})
         for (std::size_t which = 0; which < 3; ++which) {
             std::array<Vec<T>, 3> tangents{Vec<T>{1, 0, 0}, {0, 1, 0}, {1, 1, 0}};

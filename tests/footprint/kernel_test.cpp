@@ -46,7 +46,7 @@ static_assert(!Kernel<BiweightKernel, std::string>);
 
 } // namespace
 
-TEST_CASE_TEMPLATE("kernels: obey the laws", T, float, double) {
+TEST_CASE_TEMPLATE("kernels: every kernel obeys the laws", T, float, double) {
     SUBCASE("biweight") { tests::check_kernel_laws<BiweightKernel, T>(); }
     SUBCASE("Epanechnikov") { tests::check_kernel_laws<EpanechnikovKernel, T>(); }
     SUBCASE("cone") { tests::check_kernel_laws<ConeKernel, T>(); }
@@ -57,7 +57,7 @@ TEST_CASE_TEMPLATE("kernels: obey the laws", T, float, double) {
 }
 
 // K(0) of the formulas as printed: eq. 11 of Frisvad et al. 2014 is 3/π, Jensen's cone 3/π, the others by hand.
-TEST_CASE("kernels: have the heights of the papers") {
+TEST_CASE("kernels: heights are those in the papers") {
     const double pi = std::numbers::pi, tolerance = 4e-16;
     CHECK(std::abs(BiweightKernel{}(0.0) - 3 / pi) <= tolerance);
     CHECK(std::abs(BiweightKernel{}(0.5) - 0.75 / pi) <= tolerance);
@@ -70,7 +70,7 @@ TEST_CASE("kernels: have the heights of the papers") {
     CHECK(std::abs(TruncatedGaussianKernel::cut - std::exp(-4.5)) <= 1e-17);
 }
 
-TEST_CASE("pixel filter width: is the square root of two thirds for the biweight kernel") {
+TEST_CASE("pixel filter width: it is the square root of two thirds for the biweight kernel") {
     CHECK(std::abs(pixel_filter_width<BiweightKernel> - std::sqrt(2.0 / 3)) <= 2.3e-16);
     CHECK(std::abs(pixel_filter_width<UniformKernel> - std::sqrt(1.0 / 3)) <= 2.3e-16);
     CHECK(std::abs(pixel_filter_width<EpanechnikovKernel> - std::sqrt(0.5)) <= 2.3e-16);
@@ -79,7 +79,7 @@ TEST_CASE("pixel filter width: is the square root of two thirds for the biweight
 // By r2: −6/π (1 − r2), −2/π, −3/(2π r), 0, −9/2 k. Central differences in double with h = 1e-5 are off
 // by h²/6 times the third derivative, which is largest for the cone at 0.045, 9/(8π) r⁻⁵ < 900, plus rounding,
 // epsilon / h: below 1e-7.
-TEST_CASE("kernels: have the derivatives of their formulas inside the disk") {
+TEST_CASE("kernels: derivatives inside the disk are those of the formulas") {
     const double h = 1e-5;
     const auto slope = [&](const auto& kernel, double r2) { return (kernel(r2 + h) - kernel(r2 - h)) / (2 * h); };
     for (int i = 5; i < 100; ++i) {

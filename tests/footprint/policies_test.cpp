@@ -57,7 +57,7 @@ static_assert(!FootprintPolicy<KeepAll, int>);
 
 } // namespace
 
-TEST_CASE_TEMPLATE("DiscardCollapsed: discards what has no area and changes nothing", T, float, double) {
+TEST_CASE_TEMPLATE("DiscardCollapsed: discards footprints without area and changes no other", T, float, double) {
     const DiscardCollapsed policy;
     for (const T minor : {T(1), T(1e-3), T(1e-20)}) {
         Ellipse<Vec<T>> e{{1, 0, 0}, {0, minor, 0}, {0, 0, 1}};
@@ -93,7 +93,8 @@ TEST_CASE_TEMPLATE("BoundMajorRadius: shortens along the major axis and keeps th
     CHECK(e.b == inside.b);
 }
 
-TEST_CASE_TEMPLATE("BoundMajorRadius: bounds a footprint that is too long in all directions", T, float, double) {
+TEST_CASE_TEMPLATE("BoundMajorRadius: shortens both radii of a footprint that is too long in all directions", T, float,
+                   double) {
     for (const T minor : {T(50), T(49), T(10.5)}) {
         auto e = skewed<T>(T(50), minor);
         CHECK(BoundMajorRadius{2}(e, T(5)) == Verdict::bounded);
@@ -103,7 +104,7 @@ TEST_CASE_TEMPLATE("BoundMajorRadius: bounds a footprint that is too long in all
 
 // A ray that grazes its receiver makes these: the squares of such lengths, and the squares of those, overflow before
 // they do.
-TEST_CASE_TEMPLATE("BoundMajorRadius: bounds the longest footprints that there are", T, float, double) {
+TEST_CASE_TEMPLATE("BoundMajorRadius: bounds the longest possible footprints", T, float, double) {
     for (const int power : std::is_same_v<T, float> ? std::array{20, 40, 60} : std::array{20, 100, 200}) {
         const T huge = std::ldexp(T(1), power);
         CAPTURE(power);
@@ -115,7 +116,7 @@ TEST_CASE_TEMPLATE("BoundMajorRadius: bounds the longest footprints that there a
     }
 }
 
-TEST_CASE_TEMPLATE("BoundMajorRadius: has no bound where the map has no extent", T, float, double) {
+TEST_CASE_TEMPLATE("BoundMajorRadius: there is no bound if the map has no extent", T, float, double) {
     auto e = skewed<T>(T(50), T(0.5));
     CHECK(BoundMajorRadius{}(e, T(0)) == Verdict::kept);
     check_radii(e, T(50), T(0.5));

@@ -153,9 +153,9 @@ public:
             case 5: {
                 const BoundingSphere<V> ball{place(), length(0.01, 1)};
                 // A light inside of its target is refused, as documented: the target may not reach into it.
-                if (target && !(nephroid::length(V(target->center - ball.center)) > target->radius + ball.radius))
+                if (target && !(nephroid::length(V(target->centre - ball.centre)) > target->radius + ball.radius))
                     target.reset();
-                lights.push_back(SphereLight<V, V>({ball.center, ball.radius, color(), target}));
+                lights.push_back(SphereLight<V, V>({ball.centre, ball.radius, color(), target}));
                 break;
             }
             default: {

@@ -86,7 +86,7 @@ struct Laser {
 
 } // namespace
 
-TEST_CASE("coherent order: a place on the curve is found by halving the domain") {
+TEST_CASE("coherent order: a key on the curve is found by halving the domain") {
     const RandomSequence sequence(3);
     for (std::uint64_t i = 0; i < 1000; ++i) {
         const std::array<double, 4> u = {sequence.sample<double>(i, 0), sequence.sample<double>(i, 1),
@@ -102,13 +102,13 @@ TEST_CASE("coherent order: a place on the curve is found by halving the domain")
     CHECK(z_curve_key({{0.999, 0.999}, 0x12345, 2, {}}) == 0xff2345ffu);
 }
 
-TEST_CASE("coherent order: numbers that no sequence should give lie in the first cell") {
+TEST_CASE("coherent order: invalid numbers count as the first cell") {
     for (const double bad : {1.0, -0.1, 1e300, -std::numeric_limits<double>::infinity(),
                              std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
         CHECK(z_curve_key({{bad, bad}, 0, 2, {}}) == 0);
 }
 
-TEST_CASE_TEMPLATE("coherent order: sorts by place and keeps the order of indices where places are the same", Sequence,
+TEST_CASE_TEMPLATE("coherent order: sorts by key and keeps the order of indices for equal keys", Sequence,
                    HaltonSequence, RandomSequence) {
     const Sequence sequence(7);
     const auto check = [&](const auto& light, std::size_t count) {
@@ -128,7 +128,7 @@ TEST_CASE_TEMPLATE("coherent order: sorts by place and keeps the order of indice
     }
 }
 
-TEST_CASE("coherent order: in each part of the domain the photons of a light come together") {
+TEST_CASE("coherent order: within each part of the domain the photons of a light are together") {
     const LightSet<DirectionalLight<Vec, double>, PointLight<Vec, double>> lights({sun(), lamp(), sun()});
     constexpr std::size_t count = 40'000;
     std::size_t changes = 0;
@@ -151,7 +151,7 @@ TEST_CASE("coherent order: photons of a light that draws nothing stay in the ord
 // Points of a stratified sequence lie 1/√n apart. Along the curve half of the steps go to the next cell in x, a
 // quarter one down and one back, an eighth to the cell after the last in x, and so on: 1.67 cells in the mean. In any
 // order that knows nothing of places the mean step is the mean distance of two points in the unit square, 0.52.
-TEST_CASE("coherent order: photons that follow each other start close together") {
+TEST_CASE("coherent order: successive photons start close together") {
     constexpr std::size_t count = 4096;
     const auto mean_step = [&](const std::vector<std::uint32_t>& order) {
         double sum = 0;
@@ -169,7 +169,7 @@ TEST_CASE("coherent order: photons that follow each other start close together")
     CHECK(mean_step(order_of(sun(), 0, count)) < 2.5 * spacing);
 }
 
-TEST_CASE("coherent order: several threads find the same one") {
+TEST_CASE("coherent order: several threads find the same order") {
     CoherentOrder one, other;
     SerialExecutor serial;
     ThreadExecutor threads(3);

@@ -34,7 +34,7 @@ Note note(std::uint64_t i, Statistics& account) {
 
 } // namespace
 
-TEST_CASE("traced batch: each photon is traced once and lies at its index") {
+TEST_CASE("traced batch: each photon is traced once and stored at its index") {
     SerialExecutor executor;
     detail::TracedBatch<Note> batch;
     for (const std::uint64_t count : {1u, 15u, 17u, 1000u, 5000u, 64u}) {

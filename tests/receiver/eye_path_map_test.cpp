@@ -87,7 +87,7 @@ TEST_CASE_TEMPLATE("eye path map: reads the user's vertices of any vector type",
     });
 }
 
-TEST_CASE("eye path map: its vector type is deduced and projections may be members or callables") {
+TEST_CASE("eye path map: the vector type is deduced and projections may be members or callables") {
     using V = glm::vec3;
     const auto vertices = floor_and_wall<V>();
     const EyePathMap by_member(vertices, &Vertex<V>::position, &Vertex<V>::shading_normal);
@@ -113,7 +113,7 @@ TEST_CASE("eye path map: its vector type is deduced and projections may be membe
         [&](int i) { return vertices[std::size_t(i)].shading_normal; }));
 }
 
-TEST_CASE_TEMPLATE("eye path map: without vertices knows nothing and complains of nothing", T, float, double) {
+TEST_CASE_TEMPLATE("eye path map: a map without vertices is valid", T, float, double) {
     using V = glm::vec<3, T>;
     const EyePathMap<V> map(std::vector<Vertex<V>>{}, &Vertex<V>::position, &Vertex<V>::shading_normal);
     CHECK(map.tree().empty());
@@ -121,7 +121,7 @@ TEST_CASE_TEMPLATE("eye path map: without vertices knows nothing and complains o
     CHECK(map.spacing_at({1, 2, 3}) == 0);
 }
 
-TEST_CASE("eye path map: of one vertex or of coincident ones has no spacing") {
+TEST_CASE("eye path map: one vertex or coincident vertices have no spacing") {
     using V = glm::dvec3;
     for (const std::size_t count : {1u, 1000u}) {
         const std::vector<Vertex<V>> vertices(count, {0, {1, 2, 3}, {0, 1, 0}});
@@ -132,7 +132,7 @@ TEST_CASE("eye path map: of one vertex or of coincident ones has no spacing") {
 }
 
 // Where a hundred vertices lie in one place none of the nearest tells how far apart pixels are.
-TEST_CASE("eye path map: a leaf that cannot tell takes the spacing of the others") {
+TEST_CASE("eye path map: a leaf of unknown spacing gets the median of the others") {
     using V = glm::dvec3;
     auto vertices = floor_and_wall<V>();
     vertices.resize(1024);
@@ -142,7 +142,7 @@ TEST_CASE("eye path map: a leaf that cannot tell takes the spacing of the others
 }
 
 // It is a leaf of its own, and the spacing around it is its neighbours'.
-TEST_CASE("eye path map: a lone vertex beside a lattice is spaced about as the lattice is") {
+TEST_CASE("eye path map: a lone vertex beside a lattice gets about the lattice's spacing") {
     using V = glm::dvec3;
     auto vertices = floor_and_wall<V>();
     vertices.resize(1024);
@@ -162,7 +162,7 @@ TEST_CASE("eye path map: far from the origin the spacing keeps its digits") {
     CHECK(map.spacing_at({1e5f, -1e5f, 1e5f}) == 1.0f / 64); // a multiple of a float's step there, 1/128
 }
 
-TEST_CASE("eye path map: says which vertex has a position or a normal that cannot be") {
+TEST_CASE("eye path map: the message names the vertex with an invalid position or normal") {
     using V = glm::vec3;
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
     const auto with = [&](const Vertex<V>& bad) {
@@ -191,7 +191,7 @@ TEST_CASE("eye path map: says which vertex has a position or a normal that canno
 // A room whose walls lie along the axes, the commonest scene there is: the points of a wall have no extent across it,
 // and a tree that halves boxes without looking at the points in them cuts walls into rags. Leaves that reach around an
 // edge mix two lattices: with 96 x 96 vertices a wall, fewer than a tenth.
-TEST_CASE_TEMPLATE("eye path map: on the walls of a room the spacing is that of the lattice", T, float, double) {
+TEST_CASE_TEMPLATE("eye path map: the spacing on the walls of a room is that of the lattice", T, float, double) {
     using V = glm::vec<3, T>;
     constexpr int n = 96;
     std::vector<Vertex<V>> vertices;
@@ -213,7 +213,7 @@ TEST_CASE_TEMPLATE("eye path map: on the walls of a room the spacing is that of 
 }
 
 // Whether a whole leaf faces a photon is told from these two.
-TEST_CASE("eye path map: no normal is further from the middle of its leaf's than the leaf's spread") {
+TEST_CASE("eye path map: a leaf's cone contains all of its normals") {
     struct Vertex {
         glm::vec3 position, normal;
     };
@@ -240,7 +240,7 @@ TEST_CASE("eye path map: no normal is further from the middle of its leaf's than
 
 // A vertex at one end of a leaf is asked about through the leaf's middle, which is rounded: by as much as a millionth
 // of its distance from the origin, where the leaf itself may be smaller than that.
-TEST_CASE_TEMPLATE("eye path map: no vertex lies outside of its leaf, far from the origin either", T, float, double) {
+TEST_CASE_TEMPLATE("eye path map: no vertex lies outside its leaf even far from the origin", T, float, double) {
     using V = glm::vec<3, T>;
     struct Vertex {
         V position, normal;

@@ -56,7 +56,7 @@ std::string complaint_of(const Make& make) {
 
 } // namespace
 
-TEST_CASE_TEMPLATE("eye path view: is trivially copyable for any vector", T, float, double) {
+TEST_CASE_TEMPLATE("eye path view: views are trivially copyable for any vector", T, float, double) {
     tests::for_each_vector<T>([]<class V>() { CHECK(std::is_trivially_copyable_v<EyePathView<V>>); });
 }
 
@@ -88,8 +88,7 @@ TEST_CASE_TEMPLATE("eye path view: every node bounds the normals and the footpri
     }
 }
 
-TEST_CASE_TEMPLATE("eye path view: a volume that asks for normals finds the facing vertices of brute force", T, float,
-                   double) {
+TEST_CASE_TEMPLATE("eye path view: a facing volume finds the same vertices as brute force", T, float, double) {
     using V = glm::vec<3, T>;
     const auto vertices = ball<V>(20'000);
     const EyePathMap<V> map(vertices, &Vertex<V>::position, &Vertex<V>::normal);
@@ -120,7 +119,7 @@ TEST_CASE_TEMPLATE("eye path view: a volume that asks for normals finds the faci
 }
 
 // A footprint meets a box if one of many places of it lies in there: what a walk must not miss.
-TEST_CASE_TEMPLATE("eye path view: finds the leaves whose pixels' footprints meet a volume", T, float, double) {
+TEST_CASE_TEMPLATE("eye path view: finds the leaves with pixel footprints that overlap a volume", T, float, double) {
     using V = glm::vec<3, T>;
     const auto vertices = ball<V>(3000);
     const EyePathMap<V> with = map_of(vertices);
@@ -160,7 +159,7 @@ TEST_CASE_TEMPLATE("eye path view: finds the leaves whose pixels' footprints mee
     }
 }
 
-TEST_CASE("eye path view: footprints are the caller's by projection or by range or squares of the spacing") {
+TEST_CASE("eye path view: footprints come from a projection or a range or are squares of the spacing") {
     using V = glm::vec3;
     std::vector<Vertex<V>> vertices;
     std::vector<PixelFootprint<V>> beside;
@@ -194,7 +193,7 @@ TEST_CASE("eye path view: footprints are the caller's by projection or by range 
         }
 }
 
-TEST_CASE("eye path view: without a spacing squares have no area") {
+TEST_CASE("eye path view: footprints are empty if there is no spacing") {
     using V = glm::dvec3;
     const std::vector<Vertex<V>> one(1, {{1, 2, 3}, {0, 0, 1}, {{0, 0, 0}, {0, 0, 0}}});
     CHECK(map_of(one).footprint(0, 0).inverse_area == 0);
@@ -203,7 +202,7 @@ TEST_CASE("eye path view: without a spacing squares have no area") {
     CHECK(map_of(std::vector<Vertex<V>>{}).has_footprints() == false);
 }
 
-TEST_CASE("eye path map: says which vertex has a footprint that cannot be") {
+TEST_CASE("eye path map: the message names the vertex with an invalid footprint") {
     using V = glm::vec3;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const auto& bad : {PixelFootprint<V>{{1, 0, 0}, {2, 0, 0}},

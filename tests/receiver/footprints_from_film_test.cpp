@@ -85,7 +85,7 @@ TEST_CASE("footprints from film: on a plane they are those of the camera's rays 
 }
 
 // A table of normal (0, 0, 1) as the floor has: only the step in depth tells them apart.
-TEST_CASE("footprints from film: do not reach across silhouettes") {
+TEST_CASE("footprints from film: footprints do not reach across silhouettes") {
     const auto vertices = film([](const PixelRay<V>& r) {
         const auto table = on_floor(r, 1);
         const bool is_met = table && std::abs(table->position.x) < 0.5 && std::abs(table->position.y) < 0.5;
@@ -116,7 +116,7 @@ TEST_CASE("footprints from film: do not reach across silhouettes") {
 
 // A ball: its normals turn. The way to a neighbour, laid into the tangent plane, is shorter than where the neighbour's
 // ray meets that plane by a share of the order of the turn over the cosine.
-TEST_CASE("footprints from film: follow a curved surface and leave out what lies behind it") {
+TEST_CASE("footprints from film: footprints follow a curved surface and ignore what lies behind it") {
     const V centre(0, 0, 0.6);
     const double radius = 0.6;
     const auto vertices = film([&](const PixelRay<V>& r) -> std::optional<Vertex> {
@@ -146,7 +146,7 @@ TEST_CASE("footprints from film: follow a curved surface and leave out what lies
     CHECK(compared > 50);
 }
 
-TEST_CASE("footprints from film: a vertex alone is not known and a row of them is as wide as it is long") {
+TEST_CASE("footprints from film: a lone vertex has none and vertices in a row have squares") {
     std::vector<Vertex> vertices{{{0, 0, 0}, {0, 0, 1}, 0}, {{3, 0, 0}, {0, 0, 1}, 10}, {{4, 0, 0}, {0, 0, 1}, 11}};
     const auto found = footprints(vertices);
     CHECK(detail::is_unknown(found[0]));
@@ -159,7 +159,7 @@ TEST_CASE("footprints from film: a vertex alone is not known and a row of them i
     CHECK(footprints(vertices)[3].u == V(0.5, 0, 0));
 }
 
-TEST_CASE("footprints from film: says which vertex is not on the film") {
+TEST_CASE("footprints from film: the message names the vertex that is not on the film") {
     const std::vector<Vertex> vertices{{{0, 0, 0}, {0, 0, 1}, 0}, {{0, 0, 0}, {0, 0, 1}, width * height}};
     try {
         (void)footprints(vertices);

@@ -7,7 +7,7 @@
 
 using namespace nephroid;
 
-TEST_CASE("leaf spacing: those that are unknown take the median of the others") {
+TEST_CASE("leaf spacing: unknown spacings become the median of the others") {
     std::vector<double> spacings{0, 3, 1, 0, 2};
     detail::fill_unknown_spacings(spacings);
     CHECK(spacings == std::vector<double>{2, 3, 1, 2, 2});

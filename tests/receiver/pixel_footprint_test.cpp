@@ -16,7 +16,7 @@ using tests::Wide;
 // u* · u = 1, u* · v = 0, and both lie in the plane. A dual vector is as long as the height is short: relative to its
 // length and the sides' it is as exact as the products of the wider scalar, which for float are exact; for double the
 // cross product's components are, and the rest is a few roundings.
-TEST_CASE_TEMPLATE("pixel footprint: its rows are the dual basis of its sides however thin it is", T, float, double) {
+TEST_CASE_TEMPLATE("pixel footprint: the rows are the dual basis of the sides however thin it is", T, float, double) {
     using V = glm::vec<3, T>;
     tests::Draws draw(91);
     for (int round = 0; round < 2000; ++round) {
@@ -43,7 +43,7 @@ TEST_CASE_TEMPLATE("pixel footprint: its rows are the dual basis of its sides ho
     }
 }
 
-TEST_CASE_TEMPLATE("pixel footprint: a square's rows are its frame over its side", T, float, double) {
+TEST_CASE_TEMPLATE("pixel footprint: the rows of a square are its frame over its side", T, float, double) {
     using V = glm::vec<3, T>;
     const V normal(T(0.6), 0, T(0.8));
     const FootprintRows<V> rows = detail::square_rows(normal, T(0.25));
@@ -58,7 +58,8 @@ TEST_CASE_TEMPLATE("pixel footprint: a square's rows are its frame over its side
 
 // A ray from height h at the angle a meets the floor at h tan a, on a slope of angle s at h / (cos a (sin s + cos s /
 // tan a))... here by the reference's own intersection in wide precision.
-TEST_CASE_TEMPLATE("pixel footprint: from rays it is what a plane cuts out of the pixel's pyramid", T, float, double) {
+TEST_CASE_TEMPLATE("pixel footprint: footprints from rays are a plane's section of the pixel's pyramid", T, float,
+                   double) {
     using V = glm::vec<3, T>;
     tests::Draws draw(92);
     int behind = 0;
@@ -94,7 +95,7 @@ TEST_CASE_TEMPLATE("pixel footprint: from rays it is what a plane cuts out of th
     CHECK(behind < 10);
 }
 
-TEST_CASE("pixel footprint: is not known where a ray passes the horizon") {
+TEST_CASE("pixel footprint: it is unknown if a ray passes the horizon") {
     using V = glm::vec3;
     const V eye(0, 0, 1);
     const auto ray = [&](float x, float z) { return PixelRay<V>{eye, V(x, 1, z)}; };

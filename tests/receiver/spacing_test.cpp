@@ -46,7 +46,7 @@ constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
 
 // With a side that is a power of two every squared distance is exact, so is their sum, and 12 p² / 12: the root of
 // p².
-TEST_CASE_TEMPLATE("point spacing: of a square lattice is its side", T, float, double) {
+TEST_CASE_TEMPLATE("point spacing: the spacing of a square lattice is its side", T, float, double) {
     for (const auto& size : {std::pair{8, 8}, {4, 8}, {5, 5}, {7, 4}, {6, 6}, {4, 4}})
         for (const double side : {1.0, 0.25, 1024.0}) {
             CAPTURE(size.first);
@@ -56,7 +56,7 @@ TEST_CASE_TEMPLATE("point spacing: of a square lattice is its side", T, float, d
 }
 
 // Coordinates up to 8 p in three axes are rounded by 8 p epsilon/2 each: a distance of p is off by 8 sqrt(3) epsilon p.
-TEST_CASE_TEMPLATE("point spacing: is the lattice's side whichever way it lies in space", T, float, double) {
+TEST_CASE_TEMPLATE("point spacing: the orientation of a lattice does not matter", T, float, double) {
     Draws draw(41);
     for (int i = 0; i < 50; ++i) {
         const Space n = draw.direction(), u = draw.direction().across(n).unit(), v = n.cross(u);
@@ -65,7 +65,7 @@ TEST_CASE_TEMPLATE("point spacing: is the lattice's side whichever way it lies i
     }
 }
 
-TEST_CASE("point spacing: of a stretched lattice is between its two sides") {
+TEST_CASE("point spacing: the spacing of a stretched lattice is between its two sides") {
     for (const double stretch : {1.2, 2.0, 3.0, 5.0}) {
         const double spacing = lattice<double>(8, 8, 1, stretch).spacing();
         CAPTURE(stretch);
@@ -81,7 +81,7 @@ TEST_CASE("point spacing: of a stretched lattice is between its two sides") {
 // says (12 − 2 + 4) / 12 and three say 1. With a stray at (−0.1, −0.1) from it, in the place of a neighbour at
 // √2, it says (12 − 2 + 0.02) / 12, the two next to it, with the stray at √1.22, (12 − 2 + 1.22) / 12, and the
 // fourth 1.
-TEST_CASE_TEMPLATE("point spacing: a hole or a stray beside the middle is outvoted", T, float, double) {
+TEST_CASE_TEMPLATE("point spacing: a hole or a stray point beside the middle hardly matters", T, float, double) {
     const auto without = [](double x, double y) {
         Points<T> points;
         for (int i = 0; i < 64; ++i)
@@ -99,7 +99,8 @@ TEST_CASE_TEMPLATE("point spacing: a hole or a stray beside the middle is outvot
 // The k-th nearest of randomly strewn points of density 1 has the mean squared distance k/π: 36/π over 12 is 0.977².
 // The root of an average is below the average's root, and the median below the mean: the documented 0.95. Of 400 clouds
 // the mean varies by about 0.2/sqrt(400) = 0.01: four of these.
-TEST_CASE_TEMPLATE("point spacing: of random points is 0.95 over the root of their density", T, float, double) {
+TEST_CASE_TEMPLATE("point spacing: the spacing of random points is 0.95 over the root of their density", T, float,
+                   double) {
     Draws draw(42);
     double sum = 0;
     for (int cloud = 0; cloud < 400; ++cloud) {
@@ -111,7 +112,7 @@ TEST_CASE_TEMPLATE("point spacing: of random points is 0.95 over the root of the
     CHECK(std::abs(sum / 400 - 0.95) <= 0.04);
 }
 
-TEST_CASE_TEMPLATE("point spacing: is known from two points on and unknown for one", T, float, double) {
+TEST_CASE_TEMPLATE("point spacing: two points have a spacing and one has none", T, float, double) {
     CHECK(Points<T>{}.spacing() == 0);
     CHECK(lattice<T>(1, 1, 1, 1).spacing() == 0);
     CHECK(lattice<T>(2, 1, 0.5, 1).spacing() == 0.5);
@@ -125,7 +126,8 @@ TEST_CASE_TEMPLATE("point spacing: is known from two points on and unknown for o
     }
 }
 
-TEST_CASE_TEMPLATE("point spacing: of coincident points is zero and a copy of each changes nothing", T, float, double) {
+TEST_CASE_TEMPLATE("point spacing: coincident points have spacing zero and duplicates change nothing", T, float,
+                   double) {
     Points<T> coincident, twice;
     for (int i = 0; i < 64; ++i)
         coincident.add({3, 4, 5});

@@ -62,7 +62,7 @@ template <class V, class F = scalar_t<V>>
 template <class V, class F = scalar_t<V>>
 [[nodiscard]] DiskLight<V, F> disk() {
     using T = scalar_t<V>;
-    return DiskLight<V, F>({.center = make_vector<V>(T(-0.5), T(0), T(6)),
+    return DiskLight<V, F>({.centre = make_vector<V>(T(-0.5), T(0), T(6)),
                             .normal = make_vector<V>(T(0), T(0), T(-1)),
                             .radius = T(0.2),
                             .radiance = F(60),

@@ -119,7 +119,7 @@ void check_image(const std::vector<F>& image, const std::vector<Received>& expec
 
 } // namespace
 
-TEST_CASE_TEMPLATE("splat photons: adds up what brute force over all vertices adds up", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: the sums are those of brute force over all vertices", T, float, double) {
     const auto vertices = room<T>();
     const auto map = map_of(vertices);
     const auto deposits = photons<T>(400);
@@ -170,7 +170,7 @@ TEST_CASE_TEMPLATE("splat photons: a vertex that faces away receives nothing", T
 }
 
 // One leaf whose vertices face every way: each is asked on its own.
-TEST_CASE_TEMPLATE("splat photons: in a leaf of mixed normals every vertex is asked", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: in a leaf of mixed normals each vertex is checked", T, float, double) {
     Draws draw(72);
     std::vector<Vertex<Vec<T>>> vertices;
     for (int i = 0; i < 61; ++i) // not a multiple of the lanes
@@ -246,7 +246,7 @@ TEST_CASE("splat photons: a response weighs each photon by vertex and direction"
 
 // Three bands do what three fluxes do: each is the same product and sum, bit for bit unless a compiler fuses some of
 // them. 100 photons round 100 times then.
-TEST_CASE("splat photons: a colour is three numbers") {
+TEST_CASE("splat photons: colours are summed band by band") {
     const auto vertices = room<float>();
     const auto map = map_of(vertices);
     const auto grey = photons<float>(100);
@@ -280,7 +280,7 @@ TEST_CASE("splat photons: a colour is three numbers") {
 }
 
 // The order of summation is that of the photons, however they are cut into chunks and calls.
-TEST_CASE_TEMPLATE("splat photons: the sums do not depend on chunks nor on calls", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: the sums do not depend on chunks or calls", T, float, double) {
     const auto vertices = room<T>();
     const auto map = map_of(vertices);
     const auto deposits = photons<T>(300);
@@ -316,8 +316,7 @@ TEST_CASE("splat photons: several threads give the same sums bit for bit") {
 }
 
 // More than 32,768 leaves, which then are in groups of more than four. Against the sums of one chunk after another.
-TEST_CASE("splat photons: a map of many leaves is summed by several threads bit for bit" *
-          doctest::skip(is_sanitized)) {
+TEST_CASE("splat photons: several threads sum a map of many leaves bit for bit" * doctest::skip(is_sanitized)) {
     using V = glm::vec3;
     constexpr std::size_t side = 1500;
     std::vector<Vertex<V>> vertices;
@@ -345,7 +344,7 @@ TEST_CASE("splat photons: a map of many leaves is summed by several threads bit 
     }
 }
 
-TEST_CASE_TEMPLATE("splat photons: books what became of each photon", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: books the fate of each photon", T, float, double) {
     const auto vertices = room<T>();
     const auto map = map_of(vertices);
     const Vec<T> up{0, 0, 1}, centre{T(0.5), T(0.5), 0}, a{T(0.1), 0, 0}, b{0, T(0.1), 0}, zero{0, 0, 0};
@@ -391,7 +390,7 @@ TEST_CASE_TEMPLATE("splat photons: on an empty map every photon is unseen", T, f
 }
 
 // Distances across a needle overflow at a far vertex, and their difference would be no number.
-TEST_CASE_TEMPLATE("splat photons: a needle thinner than any makes no vertex a NaN", T, float, double) {
+TEST_CASE_TEMPLATE("splat photons: the thinnest needle makes no vertex NaN", T, float, double) {
     std::vector<Vertex<Vec<T>>> vertices;
     tests::add_lattice<T>(vertices, 8, 8, 1e4, {-35000, -35000, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
     const auto map = map_of(vertices);
@@ -420,7 +419,7 @@ TEST_CASE("splat photons: rescaling multiplies tangents and fluxes") {
     CHECK(image_of(sums, vertices.size()) == image_of(expected, vertices.size()));
 }
 
-TEST_CASE("splat photons: a rescaling that cannot be is refused") {
+TEST_CASE("splat photons: an invalid rescaling is refused") {
     const auto vertices = room<float>();
     const auto map = map_of(vertices);
     const auto deposits = photons<float>(4);

@@ -47,7 +47,7 @@ std::vector<Vertex<T>> bumps(Draws& draw, double height) {
 
 // Every vertex of every leaf is asked by itself. Many leaves must be told to be out of reach, or the test shows
 // nothing.
-TEST_CASE_TEMPLATE("splat reach: no leaf is left out that has a vertex in the splat and no check that one fails", T,
+TEST_CASE_TEMPLATE("splat reach: no leaf with a vertex in the splat is skipped nor a check that a vertex fails", T,
                    float, double) {
     Draws draw(1);
     int wrong = 0, left_out = 0, unchecked = 0;
@@ -89,7 +89,7 @@ TEST_CASE_TEMPLATE("splat reach: no leaf is left out that has a vertex in the sp
 // that is compared: they round by a thousandth, elsewhere in a leaf otherwise than at its vertices. Each leaf here is
 // two vertices at the needle's border, a few roundings apart, and by what is computed for themselves some are just
 // inside.
-TEST_CASE_TEMPLATE("splat reach: rounding along a needle leaves out no vertex", T, float, double) {
+TEST_CASE_TEMPLATE("splat reach: rounding along a needle skips no vertex", T, float, double) {
     using V = Vec<T>;
     constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
     Draws draw(2);
@@ -138,8 +138,7 @@ TEST_CASE_TEMPLATE("splat reach: rounding along a needle leaves out no vertex", 
 
 // A photon within a leaf, whose far end is one height away but for a few roundings: no terms cancel, and what is left
 // is the rounding of the leaf's own half.
-TEST_CASE_TEMPLATE("splat reach: rounding at the end of a leaf about the photon leaves out no vertex", T, float,
-                   double) {
+TEST_CASE_TEMPLATE("splat reach: rounding at the end of a leaf around the photon skips no vertex", T, float, double) {
     using V = Vec<T>;
     constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
     Draws draw(4);
@@ -170,8 +169,7 @@ TEST_CASE_TEMPLATE("splat reach: rounding at the end of a leaf about the photon 
 }
 
 // Normals that differ by little, all but across the photon's: the ones that face it do so by a rounding.
-TEST_CASE_TEMPLATE("splat reach: rounding of normals at right angles to the photon leaves out no vertex", T, float,
-                   double) {
+TEST_CASE_TEMPLATE("splat reach: rounding of normals perpendicular to the photon skips no vertex", T, float, double) {
     using V = Vec<T>;
     constexpr double epsilon = double(std::numeric_limits<T>::epsilon());
     Draws draw(3);
@@ -208,7 +206,7 @@ TEST_CASE_TEMPLATE("splat reach: rounding of normals at right angles to the phot
 
 // Two walls of a corner: a photon on one has nothing to do with the other, and where it shines along a flat leaf no
 // vertex of it is asked.
-TEST_CASE("splat reach: a flat leaf that lies along the photon's normal is not met") {
+TEST_CASE("splat reach: a flat leaf along the photon's normal does not overlap") {
     using V = glm::vec3;
     std::vector<Vertex<float>> wall;
     for (int i = 0; i < 256; ++i)

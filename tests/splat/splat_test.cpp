@@ -123,7 +123,7 @@ TEST_CASE_TEMPLATE("splat: over a fine lattice a photon's flux is kept", T, floa
     }
 }
 
-TEST_CASE_TEMPLATE("splat: whatever a policy does to the footprint the flux stays", T, float, double) {
+TEST_CASE_TEMPLATE("splat: policies change the footprint but not the flux", T, float, double) {
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     Draws draw(62);
@@ -164,7 +164,7 @@ TEST_CASE_TEMPLATE("splat: the pixel filter adds its disk in quadrature and can 
 }
 
 // The outline of the ellipse moved by the thickness to both sides touches all faces of the box.
-TEST_CASE_TEMPLATE("splat: the box is tight about all that may receive", T, float, double) {
+TEST_CASE_TEMPLATE("splat: the box is tight around the points that may receive", T, float, double) {
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     Draws draw(63);
@@ -202,7 +202,7 @@ TEST_CASE_TEMPLATE("splat: the box is tight about all that may receive", T, floa
     }
 }
 
-TEST_CASE_TEMPLATE("splat: a footprint that is no number is invalid", T, float, double) {
+TEST_CASE_TEMPLATE("splat: a footprint with NaN is invalid", T, float, double) {
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     for (const T bad : {std::numeric_limits<T>::quiet_NaN(), std::numeric_limits<T>::infinity()}) {
@@ -218,7 +218,7 @@ TEST_CASE_TEMPLATE("splat: a footprint that is no number is invalid", T, float, 
     }
 }
 
-TEST_CASE_TEMPLATE("splat: what the policies discard says so", T, float, double) {
+TEST_CASE_TEMPLATE("splat: a discarded footprint has the policy's fate", T, float, double) {
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     const auto needle = deposit_at<T>(0.5, 0.5, 0.1, 0, 0, 0), point = deposit_at<T>(0.5, 0.5, 0, 0, 0, 0);
@@ -253,7 +253,7 @@ TEST_CASE_TEMPLATE("splat: a footprint too small for its flux has collapsed", T,
 }
 
 // Whatever a grazing ray makes, up to where its squares overflow: never a splat that is no number.
-TEST_CASE_TEMPLATE("splat: of the longest footprints there are is finite", T, float, double) {
+TEST_CASE_TEMPLATE("splat: the longest possible footprints make finite splats", T, float, double) {
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     for (int power = 0; power < std::numeric_limits<T>::max_exponent; power += 4) {
@@ -278,7 +278,7 @@ TEST_CASE_TEMPLATE("splat: of the longest footprints there are is finite", T, fl
     }
 }
 
-TEST_CASE_TEMPLATE("splat: onto an empty map or a single vertex is no crash", T, float, double) {
+TEST_CASE_TEMPLATE("splat: an empty map or a single vertex is handled", T, float, double) {
     using V = Vec<T>;
     const auto deposit = deposit_at<T>(0.5, 0.5, 0.1, 0, 0.1, 1), point = deposit_at<T>(0.5, 0.5, 0, 0, 0, 0);
     const auto nothing = map_of(std::vector<Vertex<V>>{});
@@ -289,7 +289,7 @@ TEST_CASE_TEMPLATE("splat: onto an empty map or a single vertex is no crash", T,
     }
 }
 
-TEST_CASE_TEMPLATE("splat: is made of any vector", T, float, double) {
+TEST_CASE_TEMPLATE("splat: accepts any vector", T, float, double) {
     tests::for_each_vector<T>([]<class V>() {
         std::vector<Vertex<V>> vertices;
         for (int i = 0; i < 100; ++i)
@@ -305,8 +305,7 @@ TEST_CASE_TEMPLATE("splat: is made of any vector", T, float, double) {
     });
 }
 
-TEST_CASE_TEMPLATE("splat: a fixed footprint is a disk whatever the differential says or if there is none", T, float,
-                   double) {
+TEST_CASE_TEMPLATE("splat: a fixed footprint is a disk with any differential or none", T, float, double) {
     const auto vertices = lattice<T>();
     const auto map = map_of(vertices);
     const auto bare_disk = [](double radius) {

@@ -94,7 +94,7 @@ TEST_CASE("splatting work: no vertex receives a photon twice") {
 // Area times density is what has to be done. Leaves of n <= 64 vertices of a lattice, split across their longest side,
 // have sides of 4 to 16 spacings; on the average their number that a disk of radius r meets follows from its box, grown
 // by the side of a leaf: so many vertices more than lie in the disk are looked at, and no others.
-TEST_CASE("splatting work: the kernel is evaluated area times density and a leaf's margin times") {
+TEST_CASE("splatting work: the number of kernel evaluations is area times density plus a leaf's margin") {
     const auto vertices = lattice();
     const EyePathMap map(vertices, &Vertex::position, &Vertex::normal);
     for (const float radius : {2.0f * spacing, 9.0f * spacing, 36.0f * spacing}) {

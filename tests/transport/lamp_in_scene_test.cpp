@@ -46,9 +46,9 @@ TEST_CASE_TEMPLATE("lamp in the scene: all of its light comes to the mirror, wha
     const Vec<T> normal = normalize(Vec<T>{T(0.3), T(-0.5), T(0.8)});
     const auto [u, v] = frame_about(normal);
     for (const T away : {T(0), T(10), T(1000)}) {
-        const Vec<T> center{away, T(-0.7) * away, T(0.4) * away};
-        const DiskLight<Vec<T>, T> disk({.center = center, .normal = normal, .radius = 1, .radiance = 1});
-        const QuadLight<Vec<T>, T> quad({.corner = center - T(0.5) * (u + v), .edge_u = u, .edge_v = v, .radiance = 1});
+        const Vec<T> centre{away, T(-0.7) * away, T(0.4) * away};
+        const DiskLight<Vec<T>, T> disk({.centre = centre, .normal = normal, .radius = 1, .radiance = 1});
+        const QuadLight<Vec<T>, T> quad({.corner = centre - T(0.5) * (u + v), .edge_u = u, .edge_v = v, .radiance = 1});
         for (const Event event : {Event::absorb, Event::deposit, Event::refract})
             for (const T side : {T(1), T(-1)}) {
                 if (event == Event::refract && side < T(0))
@@ -57,7 +57,7 @@ TEST_CASE_TEMPLATE("lamp in the scene: all of its light comes to the mirror, wha
                 CAPTURE(int(event));
                 CAPTURE(side);
                 const auto check = [&](const auto& lamp) {
-                    const Statistics account = fates_of(scene_with<T>(center, normal, event, side), lamp, 2000);
+                    const Statistics account = fates_of(scene_with<T>(centre, normal, event, side), lamp, 2000);
                     CHECK(account.opaque_first == 0);
                     CHECK(account.specular_events >= 2000);
                     CHECK(account[Fate::direct].photons == 0);
@@ -74,7 +74,7 @@ TEST_CASE("lamp in the scene: it casts a shadow as any surface does") {
     const Vec<double> normal{0, 0, 1};
     SheetScene<double> scene = scene_with<double>({0, 0, 0}, normal, Event::absorb, 1);
     scene.sheets[0].radius = 0; // without end
-    const DiskLight<Vec<double>, double> disk({.center = {0, 0, 0}, .normal = normal, .radius = 1, .radiance = 1});
+    const DiskLight<Vec<double>, double> disk({.centre = {0, 0, 0}, .normal = normal, .radius = 1, .radiance = 1});
     const Statistics account = fates_of(scene, disk, 1000);
     CHECK(account[Fate::absorbed].photons == 1000);
     CHECK(account.specular_events == 1000);
@@ -85,7 +85,7 @@ TEST_CASE("lamp in the scene: a surface close to the lamp is not taken for it") 
     const Vec<double> normal{0, 0, 1};
     SheetScene<double> scene = scene_with<double>({0, 0, 0}, normal, Event::absorb, 1);
     scene.sheets[1].centre = {0, 0, 1e-6};
-    const DiskLight<Vec<double>, double> disk({.center = {0, 0, 0}, .normal = normal, .radius = 1, .radiance = 1});
+    const DiskLight<Vec<double>, double> disk({.centre = {0, 0, 0}, .normal = normal, .radius = 1, .radiance = 1});
     const Statistics account = fates_of(scene, disk, 1000);
     CHECK(account.specular_events == 1000);
     CHECK(account[Fate::absorbed].photons >= 999); // straight back onto the lamp

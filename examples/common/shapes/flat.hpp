@@ -115,24 +115,24 @@ class Disk {
 public:
     /// @param normal  any length but zero
     /// @param radius  world units, > 0
-    Disk(const Vec3<T>& center, const Vec3<T>& normal, T radius)
-        : center_(center), normal_(normalize(widen(normal))), radius_(radius) {}
+    Disk(const Vec3<T>& centre, const Vec3<T>& normal, T radius)
+        : centre_(centre), normal_(normalize(widen(normal))), radius_(radius) {}
 
     [[nodiscard]] Box<T> bounds() const {
         Box<T> box;
         for (int axis = 0; axis < 3; ++axis) {
             const wide reach = wide(radius_) * sqrt((std::max)(wide(0), 1 - square(normal_[axis])));
-            box.min[axis] = center_[axis] - T(reach);
-            box.max[axis] = center_[axis] + T(reach);
+            box.min[axis] = centre_[axis] - T(reach);
+            box.max[axis] = centre_[axis] + T(reach);
         }
         return box.padded();
     }
 
     [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
-        const auto t = detail::cross_plane(ray, widen(center_), normal_, t_max);
+        const auto t = detail::cross_plane(ray, widen(centre_), normal_, t_max);
         if (!t)
             return std::nullopt;
-        const WideVec3 p = widen(ray.origin) + *t * widen(ray.direction) - widen(center_);
+        const WideVec3 p = widen(ray.origin) + *t * widen(ray.direction) - widen(centre_);
         if (!(length2(p) <= square(wide(radius_))))
             return std::nullopt;
         return Candidate<T>{*t};
@@ -140,12 +140,12 @@ public:
 
     [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate<T>& candidate) const {
         const WideVec3 p = widen(ray.origin) + candidate.distance * widen(ray.direction);
-        return make_hit<T>(candidate.distance, p - dot(p - widen(center_), normal_) * normal_, normal_, Flat{},
-                           magnitude(center_) + wide(radius_));
+        return make_hit<T>(candidate.distance, p - dot(p - widen(centre_), normal_) * normal_, normal_, Flat{},
+                           magnitude(centre_) + wide(radius_));
     }
 
 private:
-    Vec3<T> center_;
+    Vec3<T> centre_;
     WideVec3 normal_;
     T radius_;
 };

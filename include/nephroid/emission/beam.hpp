@@ -17,7 +17,7 @@ namespace nephroid {
 /// A disk across the beam.
 template <Vector3 V>
 struct BeamDisk {
-    V center;
+    V centre;
     scalar_t<V> radius; ///< world units, > 0
 };
 
@@ -36,9 +36,9 @@ using BeamPatch = std::variant<BoundingSphere<V>, BeamDisk<V>, Parallelogram<V>>
 namespace detail {
 /// How far outside of its bounds a beam starts: a part of their size, and what rounding adds far from the origin.
 template <Vector3 V>
-[[nodiscard]] scalar_t<V> beam_margin(const V& center, scalar_t<V> size) {
+[[nodiscard]] scalar_t<V> beam_margin(const V& centre, scalar_t<V> size) {
     using T = scalar_t<V>;
-    return size / T(64) + T(8) * std::numeric_limits<T>::epsilon() * length(center);
+    return size / T(64) + T(8) * std::numeric_limits<T>::epsilon() * length(centre);
 }
 
 /// A point's coordinates across a beam and along it, relative to some origin.
@@ -117,8 +117,8 @@ template <Scalar T>
 /// @param direction  of the beam, unit
 template <Vector3 V>
 [[nodiscard]] BeamDisk<V> beam_over(const V& direction, const BoundingSphere<V>& sphere) {
-    const scalar_t<V> back = sphere.radius + detail::beam_margin(sphere.center, sphere.radius);
-    return {sphere.center - back * direction, sphere.radius};
+    const scalar_t<V> back = sphere.radius + detail::beam_margin(sphere.centre, sphere.radius);
+    return {sphere.centre - back * direction, sphere.radius};
 }
 
 /// The smaller of a disk and a rectangle (of any turn) across a beam that cover all points, in front of them.
@@ -141,8 +141,8 @@ template <Vector3 V, std::ranges::forward_range R>
     std::vector<detail::BeamCoordinates<T>> projected;
     T nearest = T(0);
     for (const V& p : points) {
-        const V from_center = p - bounds.center;
-        projected.push_back({dot(from_center, across.u), dot(from_center, across.v), dot(from_center, along)});
+        const V from_centre = p - bounds.centre;
+        projected.push_back({dot(from_centre, across.u), dot(from_centre, across.v), dot(from_centre, along)});
         nearest = (std::min)(nearest, projected.back().along);
     }
     const detail::Rectangle<T> box = detail::smallest_rectangle(detail::convex_hull(projected));
@@ -155,9 +155,9 @@ template <Vector3 V, std::ranges::forward_range R>
     const auto world = [&](T x, T y) -> V {
         return (box.cos * x - box.sin * y) * across.u + (box.sin * x + box.cos * y) * across.v;
     };
-    const T back = nearest - detail::beam_margin(bounds.center, bounds.radius);
+    const T back = nearest - detail::beam_margin(bounds.centre, bounds.radius);
     const T mid_x = box.low_x + T(0.5) * side_x, mid_y = box.low_y + T(0.5) * side_y;
-    const V center = bounds.center + (back * along + world(mid_x, mid_y));
+    const V centre = bounds.centre + (back * along + world(mid_x, mid_y));
     T radius2 = T(0);
     for (const auto& p : projected) {
         const T x = box.cos * p.x + box.sin * p.y - mid_x, y = box.cos * p.y - box.sin * p.x - mid_y;
@@ -170,8 +170,8 @@ template <Vector3 V, std::ranges::forward_range R>
     const T width_x = (std::max)(side_x, longest / T(1000)) + T(2) * rounding;
     const T width_y = (std::max)(side_y, longest / T(1000)) + T(2) * rounding;
     if (pi<T> * square(radius) < width_x * width_y)
-        return BeamDisk<V>{center, radius};
-    return Parallelogram<V>{center - world(T(0.5) * width_x, T(0.5) * width_y), world(width_x, T(0)),
+        return BeamDisk<V>{centre, radius};
+    return Parallelogram<V>{centre - world(T(0.5) * width_x, T(0.5) * width_y), world(width_x, T(0)),
                             world(T(0), width_y)};
 }
 

@@ -14,7 +14,7 @@ namespace nephroid {
 /// lights in there, with the flux that it sends there unaimed, and none (or few) elsewhere.
 template <Vector3 V>
 struct BoundingSphere {
-    V center;
+    V centre;
     scalar_t<V> radius; ///< world units, > 0
 };
 
@@ -40,11 +40,11 @@ template <std::ranges::forward_range R>
         high =
             t::make((std::max)(t::x(high), t::x(p)), (std::max)(t::y(high), t::y(p)), (std::max)(t::z(high), t::z(p)));
     }
-    const V center = low + T(0.5) * (high - low);
+    const V centre = low + T(0.5) * (high - low);
     T radius = T(0);
     for (const V& p : points)
-        radius = (std::max)(radius, length(V(p - center)));
-    return {center, radius * (T(1) + T(8) * std::numeric_limits<T>::epsilon())};
+        radius = (std::max)(radius, length(V(p - centre)));
+    return {centre, radius * (T(1) + T(8) * std::numeric_limits<T>::epsilon())};
 }
 
 /// The directions from a point to the sphere: from inside of it every direction, about that to its centre. The cone is
@@ -53,7 +53,7 @@ template <std::ranges::forward_range R>
 template <Vector3 V>
 [[nodiscard]] Cone<V> cone_towards(const BoundingSphere<V>& target, const std::type_identity_t<V>& from) {
     using T = scalar_t<V>;
-    const V towards = target.center - from;
+    const V towards = target.centre - from;
     const T distance = length(towards);
     if (!(distance > target.radius))
         return distance > T(0) ? every_direction<V>(T(1) / distance * towards) : every_direction<V>();

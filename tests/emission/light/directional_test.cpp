@@ -82,9 +82,9 @@ TEST_CASE_TEMPLATE("directional light: photons over a sphere start outside of it
             const Sun<T> light({.direction = {1, 2, -3}, .irradiance = 1, .patch = sphere});
             Mean squared;
             for (std::uint64_t i = 0; i < 1000; ++i) {
-                const V from_center = photon_of(light, i, 1).position - sphere.center;
-                CHECK(dot(from_center, light.direction()) < -radius);
-                squared.add(double(length2(V(from_center - dot(from_center, light.direction()) * light.direction()))) /
+                const V from_centre = photon_of(light, i, 1).position - sphere.centre;
+                CHECK(dot(from_centre, light.direction()) < -radius);
+                squared.add(double(length2(V(from_centre - dot(from_centre, light.direction()) * light.direction()))) /
                             double(radius) / double(radius));
             }
             // A disk's mean squared radius is half of its squared radius. Far off, coordinates are too coarse.
@@ -108,7 +108,7 @@ TEST_CASE("directional light: it starts outside of the scene that it is told of"
         CHECK(with.power() == without.power());
         for (std::uint64_t i = 0; i < 100; ++i) {
             const V a = photon_of(without, i, 1).position, b = photon_of(with, i, 1).position;
-            CHECK(dot(V(b - scene.center), direction) <= -scene.radius);
+            CHECK(dot(V(b - scene.centre), direction) <= -scene.radius);
             CHECK(length(cross(V(b - a), direction)) <= 1e-12 * 1000);
         }
     }

@@ -26,7 +26,7 @@ using D = glm::dvec3;
 // A disk of radius 1 that shines down from z = 4.
 template <class T>
 Disk<T> overhead(const std::optional<BoundingSphere<glm::vec<3, T>>>& target) {
-    return Disk<T>({.center = {0, 0, 4}, .normal = {0, 0, -3}, .radius = 1, .radiance = 2, .target = target});
+    return Disk<T>({.centre = {0, 0, 4}, .normal = {0, 0, -3}, .radius = 1, .radiance = 2, .target = target});
 }
 
 SurfacePoint overhead_point(double a, double b) {
@@ -41,12 +41,12 @@ TEST_CASE_TEMPLATE("disk light: laws of lights hold and tangents are aligned in 
     check_light_laws(overhead<T>(std::nullopt), 4);
     check_aligned(overhead<T>(std::nullopt));
     for (const T size : {T(1e-4), T(1), T(1e5)}) {
-        const V center(1e5, 0, 0);
-        const Disk<T> light({.center = center,
+        const V centre(1e5, 0, 0);
+        const Disk<T> light({.centre = centre,
                              .normal = {0, 1, 1},
                              .radius = size,
                              .radiance = 2,
-                             .target = BoundingSphere<V>{center + size * V(0, 3, T(-0.5)), size}});
+                             .target = BoundingSphere<V>{centre + size * V(0, 3, T(-0.5)), size}});
         check_light_laws(light, 4);
         check_aligned(light);
     }
@@ -63,7 +63,7 @@ TEST_CASE("disk light: aimed the flux is the integral over the target's cone") {
     // Straight below, aside, half below the horizon, and one so near that points see it under more than pi steradian.
     for (const auto& target : {BoundingSphere<D>{{0, 0, 0}, 1}, BoundingSphere<D>{{3, 1, 2}, 1},
                                BoundingSphere<D>{{4, 0, 4}, 1}, BoundingSphere<D>{{0.5, 0, 2}, 1.5}}) {
-        CAPTURE(target.center.x);
+        CAPTURE(target.centre.x);
         const Integral expected = flux_into(target, 2, overhead_point);
         CAPTURE(expected.error);
         REQUIRE(expected.error < 0.02 * expected.value);
@@ -78,7 +78,7 @@ TEST_CASE("disk light: aimed the flux is the integral over the target's cone") {
 TEST_CASE("disk light: aiming leaves the flux through the target unchanged and has less noise") {
     for (const auto& target :
          {BoundingSphere<D>{{0, 0, 0}, 1}, BoundingSphere<D>{{3, 1, 2}, 1}, BoundingSphere<D>{{4, 0, 4}, 1}}) {
-        CAPTURE(target.center.x);
+        CAPTURE(target.centre.x);
         const Mean unaimed = flux_of(overhead<double>(std::nullopt), 100000, &target);
         const Mean aimed = flux_of(overhead<double>(target), 100000, &target);
         check_same<double>(aimed, unaimed.value(), unaimed.error());
@@ -115,7 +115,7 @@ TEST_CASE(
     for (std::uint64_t i = 0; i < 500; ++i) {
         const auto photon = photon_of(light, i, 1);
         const D to_point =
-            normalize(D(target.center +
+            normalize(D(target.centre +
                         target.radius * sphere_direction<D>(random.sample<double>(i, 0), random.sample<double>(i, 1)) -
                         photon.position));
         const Cone<D> cone = cone_towards(target, photon.position);
@@ -129,7 +129,7 @@ TEST_CASE(
 // The frame about the target turns with the point that it is seen from, although the axis' z changes sign within the
 // light, where a frame made from the axis alone jumps.
 TEST_CASE("disk light: the direction changes continuously over the light") {
-    const Disk<double> light({.center = {0, 0, 0},
+    const Disk<double> light({.centre = {0, 0, 0},
                               .normal = {1, 0, 0},
                               .radius = 1,
                               .radiance = 1,
@@ -146,8 +146,8 @@ TEST_CASE("disk light: the direction changes continuously over the light") {
 
 TEST_CASE("disk light: parameters that cannot be are refused") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
-    const auto make = [](glm::vec3 center, glm::vec3 normal, float radius, float radiance) {
-        return Disk<float>({.center = center, .normal = normal, .radius = radius, .radiance = radiance});
+    const auto make = [](glm::vec3 centre, glm::vec3 normal, float radius, float radiance) {
+        return Disk<float>({.centre = centre, .normal = normal, .radius = radius, .radiance = radiance});
     };
     CHECK_NOTHROW(make({0, 0, 0}, {0, 0, 5}, 1, 1));
     CHECK_THROWS_AS(make({0, nan, 0}, {0, 0, 5}, 1, 1), std::invalid_argument);

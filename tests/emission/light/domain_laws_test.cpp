@@ -61,10 +61,10 @@ TEST_CASE("light domains: those of area lights are as they declare") {
                                                 std::optional<Sphere>(Sphere{{0, 0, -1}, 2.0})}) {
         CAPTURE(target.has_value());
         check_domain(DiskLight<D, double>(
-            {.center = {0, 0, 0}, .normal = {0.5, 0, -1}, .radius = 1, .radiance = 1, .target = target}));
+            {.centre = {0, 0, 0}, .normal = {0.5, 0, -1}, .radius = 1, .radiance = 1, .target = target}));
         check_domain(QuadLight<D, double>(
             {.corner = {0, 0, 0}, .edge_u = {0, 1, 0}, .edge_v = {1, 0.3, 0}, .radiance = 1, .target = target}));
-        check_domain(SphereLight<D, double>({.center = {0, 0, 0}, .radius = 1, .radiance = 1, .target = target}));
+        check_domain(SphereLight<D, double>({.centre = {0, 0, 0}, .radius = 1, .radiance = 1, .target = target}));
     }
     check_domain(MeshLight<D, double>({.triangles = {{D(0, 0, 0), D(1, 0, 0), D(0, 1, 0)}}, .radiance = 1}));
 }

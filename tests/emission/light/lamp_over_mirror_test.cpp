@@ -124,7 +124,7 @@ TEST_CASE("lamps over a mirror: lamps with an area") {
     };
     const BoundingSphere<V> target{{0, 0, mirror_height}, 0.9};
     const DiskLight<V, double> disk(
-        {.center = lamp_position, .normal = {0, 0, 1}, .radius = radius, .radiance = 1 / area, .target = target});
+        {.centre = lamp_position, .normal = {0, 0, 1}, .radius = radius, .radiance = 1 / area, .target = target});
     CHECK(error_of(disk, 40'000, by_plane) <= 0.05);
     const double side = std::sqrt(area);
     const QuadLight<V, double> quad({.corner = {-side / 2, -side / 2, lamp_height},
@@ -142,6 +142,6 @@ TEST_CASE("lamps over a mirror: lamps with an area") {
          .target = target});
     CHECK(error_of(mesh, 40'000, by_plane) <= 0.05);
     const SphereLight<V, double> sphere(
-        {.center = lamp_position, .radius = radius, .radiance = 1 / area, .target = target});
+        {.centre = lamp_position, .radius = radius, .radiance = 1 / area, .target = target});
     CHECK(error_of(sphere, 40'000, by_point) <= 0.1);
 }

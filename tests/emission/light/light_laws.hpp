@@ -56,7 +56,7 @@ template <Light L>
         const auto photon = photon_of(light, i, 1); // as the only one: it stands for all of the flux
         bool counts = true;
         if (sphere != nullptr) {
-            const typename L::vector towards = sphere->center - photon.position;
+            const typename L::vector towards = sphere->centre - photon.position;
             counts = length(cross(photon.direction, towards)) < sphere->radius && dot(photon.direction, towards) > 0;
         }
         mean.add(counts ? flux_traits<typename L::flux_type>::power(photon.flux) : 0.0);
@@ -176,7 +176,7 @@ void check_aligned(const L& light) {
 /// sphere's centre: a derivation that shares nothing with the library's. In double; n² directions.
 template <Vector3 V>
 [[nodiscard]] double projected_solid_angle(const BoundingSphere<V>& sphere, const V& position, const V& normal, int n) {
-    const V towards = sphere.center - position;
+    const V towards = sphere.centre - position;
     const double distance = length(towards), angle = std::asin(sphere.radius / distance);
     const V axis = 1 / distance * towards;
     const V side = normalize(cross(axis, std::abs(axis.x) < 0.5 ? V(1, 0, 0) : V(0, 1, 0))), up = cross(side, axis);

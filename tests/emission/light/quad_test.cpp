@@ -54,7 +54,7 @@ TEST_CASE_TEMPLATE("quad light: unaimed the flux is pi times radiance times area
 
 TEST_CASE("quad light: aimed the flux is the integral over the target's cone") {
     for (const auto& target : {BoundingSphere<D>{{0, 1, 0}, 1}, BoundingSphere<D>{{4, 1, 4}, 1.5}}) {
-        CAPTURE(target.center.x);
+        CAPTURE(target.centre.x);
         const Integral expected = flux_into(target, 2, overhead_point);
         REQUIRE(expected.error < 0.02 * expected.value);
         check_same<double>(flux_of(overhead<double>(target), 50000, &target), expected.value, expected.error / 5);

@@ -25,7 +25,7 @@ using D = glm::dvec3;
 
 template <class T>
 Sphere<T> at_4(T radius, const std::optional<BoundingSphere<glm::vec<3, T>>>& target) {
-    return Sphere<T>({.center = {0, 0, 4}, .radius = radius, .radiance = 2, .target = target});
+    return Sphere<T>({.centre = {0, 0, 4}, .radius = radius, .radiance = 2, .target = target});
 }
 
 } // namespace
@@ -36,11 +36,11 @@ TEST_CASE_TEMPLATE("sphere light: laws of lights hold and tangents are aligned i
     check_light_laws(at_4<T>(1, std::nullopt), 4);
     check_aligned(at_4<T>(1, std::nullopt));
     for (const T size : {T(1e-4), T(1), T(1e5)}) {
-        const V center(1e5, 0, 0);
-        const Sphere<T> light({.center = center,
+        const V centre(1e5, 0, 0);
+        const Sphere<T> light({.centre = centre,
                                .radius = size,
                                .radiance = 2,
-                               .target = BoundingSphere<V>{center + size * V(2, 3, -4), size}});
+                               .target = BoundingSphere<V>{centre + size * V(2, 3, -4), size}});
         check_light_laws(light, 4);
         check_aligned(light);
     }
@@ -67,7 +67,7 @@ TEST_CASE("sphere light: aimed the flux is the integral over the target's cone")
     for (const auto& target : {BoundingSphere<D>{{1, 0, 0}, 0.5}, BoundingSphere<D>{{1, 0, 0}, 2}}) {
         CAPTURE(target.radius);
         // The whole sphere about the axis to the target; the kink at the horizon costs the midpoint rule some accuracy.
-        const D axis = normalize(D(target.center - D(0, 0, 4)));
+        const D axis = normalize(D(target.centre - D(0, 0, 4)));
         const Integral expected = flux_into(target, 2, [&](double a, double b) -> SurfacePoint {
             const D normal = cap_direction(axis, frame_about(axis), 2.0,
                                            DiskPoint<double>{std::sqrt(a) * std::cos(2 * pi<double> * b),
@@ -83,7 +83,7 @@ TEST_CASE("sphere light: aimed the flux is the integral over the target's cone")
 TEST_CASE("sphere light: aiming leaves the flux through the target unchanged and has less noise") {
     // At a distance, and touching the light; last one around it, where every photon starts in the target.
     for (const auto& target : {BoundingSphere<D>{{3, 1, 2}, 1}, BoundingSphere<D>{{0, 0, 2}, 1}}) {
-        CAPTURE(target.center.x);
+        CAPTURE(target.centre.x);
         const Mean unaimed = flux_of(at_4<double>(1, std::nullopt), 100000, &target);
         const Mean aimed = flux_of(at_4<double>(1, target), 100000, &target);
         check_same<double>(aimed, unaimed.value(), unaimed.error());
@@ -98,16 +98,16 @@ TEST_CASE("sphere light: aimed it emits from the normals that see the target and
     for (const double target_radius : {0.2, 1.0, 2.5}) {
         const BoundingSphere<D> target{{1, 2, -1}, target_radius};
         const Sphere<double> light = at_4<double>(1, target);
-        const D center(0, 0, 4), axis = normalize(D(target.center - center));
+        const D centre(0, 0, 4), axis = normalize(D(target.centre - centre));
         double lowest = 1;
         for (std::uint64_t i = 0; i < 20000; ++i) {
-            const D normal = photon_of(light, i, 1).position - center;
-            CHECK(dot(D(target.center - center - normal), normal) + target_radius > -1e-12);
+            const D normal = photon_of(light, i, 1).position - centre;
+            CHECK(dot(D(target.centre - centre - normal), normal) + target_radius > -1e-12);
             lowest = (std::min)(lowest, dot(normal, axis));
         }
         // The lowest of n cosines uniform in an interval of length h misses its end by more than 14 h / n with
         // probability exp(-14).
-        const double end = (1 - target_radius) / length(D(target.center - center));
+        const double end = (1 - target_radius) / length(D(target.centre - centre));
         CHECK(lowest <= end + 14 * (1 - end) / 20000);
     }
 }
@@ -121,6 +121,6 @@ TEST_CASE("sphere light: parameters that cannot be are refused") {
     CHECK_THROWS_AS(at_4<float>(nan, std::nullopt), std::invalid_argument);
     CHECK_THROWS_AS(at_4<float>(-1, std::nullopt), std::invalid_argument);
     CHECK_THROWS_AS(at_4<float>(3, Target{{0, 0, 3}, 1}), std::invalid_argument); // inside of the light
-    CHECK_THROWS_AS(Sphere<float>({.center = {0, nan, 0}, .radius = 1, .radiance = 1}), std::invalid_argument);
-    CHECK_THROWS_AS(Sphere<float>({.center = {0, 0, 0}, .radius = 1, .radiance = -1}), std::invalid_argument);
+    CHECK_THROWS_AS(Sphere<float>({.centre = {0, nan, 0}, .radius = 1, .radiance = 1}), std::invalid_argument);
+    CHECK_THROWS_AS(Sphere<float>({.centre = {0, 0, 0}, .radius = 1, .radiance = -1}), std::invalid_argument);
 }

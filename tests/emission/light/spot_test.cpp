@@ -65,7 +65,7 @@ TEST_CASE("spot light: aiming leaves the flux through the target unchanged") {
     // Inside of the full cone, across the falloff, across its edge, wider than the spot.
     for (const auto& target : {BoundingSphere<glm::dvec3>{{0, 0, -4}, 0.5}, BoundingSphere<glm::dvec3>{{2, 0, -4}, 0.7},
                                BoundingSphere<glm::dvec3>{{5, 0, -4}, 2}, BoundingSphere<glm::dvec3>{{2, 0, -4}, 4}}) {
-        CAPTURE(target.center.x);
+        CAPTURE(target.centre.x);
         Spot<double>::Options options{
             .position = {0, 0, 0}, .axis = {0, 0, -1}, .cos_inner = 0.95, .cos_outer = 0.7, .intensity = 2};
         const Mean unaimed = flux_of(Spot<double>(options), 100000, &target);

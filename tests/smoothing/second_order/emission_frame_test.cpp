@@ -104,7 +104,7 @@ TEST_CASE("emission frame: changes of axes compose") {
 // u0 of places is sqrt(area / (π N)) = radius / sqrt(N), of directions as many units as make N of them π.
 TEST_CASE("emission frame: an area light's photons differ in position and in direction") {
     const double photons = 400, radius = 3;
-    const DiskLight<D, double> disk({.center = {1, 2, 3}, .normal = {0, 0, -1}, .radius = radius, .radiance = 1});
+    const DiskLight<D, double> disk({.centre = {1, 2, 3}, .normal = {0, 0, -1}, .radius = radius, .radiance = 1});
     const auto photon = [&](std::vector<double> samples) {
         GivenSamples given(samples);
         return disk.emit(given, Spread<double>{photons, 1});

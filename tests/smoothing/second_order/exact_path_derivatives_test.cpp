@@ -54,12 +54,12 @@ template <class T>
 /// Through the ball of GlassBall onto the floor, in wide precision: Snell's law by angles.
 [[nodiscard]] Space under_ball(const tests::WideRay& ray) {
     const Wide one(1), index(1.5);
-    const Space center{Wide(0), Wide(0), Wide(1.5)}, up{Wide(0), Wide(0), one};
-    const Space in = tests::on_sphere(ray.origin - center, ray.direction, one, false);
+    const Space centre{Wide(0), Wide(0), Wide(1.5)}, up{Wide(0), Wide(0), one};
+    const Space in = tests::on_sphere(ray.origin - centre, ray.direction, one, false);
     const Space inside = tests::bent(ray.direction, in.unit(), one / index);
     const Space out = tests::on_sphere(in, inside, one, true);
     const Space ahead = tests::bent(inside, Wide(-1) * out.unit(), index);
-    return tests::on_plane(out + center, ahead, {Wide(0), Wide(0), Wide(0)}, up);
+    return tests::on_plane(out + centre, ahead, {Wide(0), Wide(0), Wide(0)}, up);
 }
 
 template <class T, class P, class S>

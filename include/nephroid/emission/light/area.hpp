@@ -37,7 +37,7 @@ public:
     AreaEmission(const F& radiance, const std::optional<BoundingSphere<V>>& target, const LightPoint<V>& middle)
         : radiance_(radiance), target_(target), axis_(middle.normal) {
         if (target_) {
-            const V towards = target_->center - middle.position;
+            const V towards = target_->centre - middle.position;
             const T distance = length(towards);
             if (distance > target_->radius)
                 axis_ = T(1) / distance * towards;
@@ -94,24 +94,24 @@ public:
     /// The domain of a light whose points lie within a sphere.
     ///
     /// @param positions  how its positions are mapped
-    [[nodiscard]] EmissionDomain domain(const EmissionPair& positions, const V& center, T radius) const {
+    [[nodiscard]] EmissionDomain domain(const EmissionPair& positions, const V& centre, T radius) const {
         // Where some points aim and others do not the map jumps.
-        const bool is_smooth = !target_ || aims_everywhere(center, radius) || aims_nowhere(center, radius);
+        const bool is_smooth = !target_ || aims_everywhere(centre, radius) || aims_nowhere(centre, radius);
         return {.coordinates = 4,
                 .kinks = {is_smooth ? positions.kinks : Kinks::unknown, Kinks::diagonals},
                 .edges = {positions.edges, positions.edges}};
     }
 
     /// Whether all points of a sphere send their photons into the cone towards the target.
-    [[nodiscard]] bool aims_everywhere(const V& center, T radius) const {
-        return target_ && length(V(target_->center - center)) - radius > T(1.001) * reach();
+    [[nodiscard]] bool aims_everywhere(const V& centre, T radius) const {
+        return target_ && length(V(target_->centre - centre)) - radius > T(1.001) * reach();
     }
 
 private:
     /// As far from the target's centre a point aims at it: the sphere fills half a hemisphere, 1 − cos = ½.
     [[nodiscard]] T reach() const { return target_->radius / sqrt(T(0.75)); }
-    [[nodiscard]] bool aims_nowhere(const V& center, T radius) const {
-        return length(V(target_->center - center)) + radius < T(0.999) * reach();
+    [[nodiscard]] bool aims_nowhere(const V& centre, T radius) const {
+        return length(V(target_->centre - centre)) + radius < T(0.999) * reach();
     }
 
     [[nodiscard]] std::optional<Cone<V>> useful_cone(const V& position) const {

@@ -92,17 +92,17 @@ public:
 
 private:
     void cover(const BoundingSphere<V>& sphere) {
-        validate_.finite("patch's centre", sphere.center);
+        validate_.finite("patch's centre", sphere.centre);
         validate_.positive("patch's radius", sphere.radius);
         cover(beam_over(direction_, sphere));
     }
 
     void cover(const BeamDisk<V>& disk) {
-        validate_.finite("patch's centre", disk.center);
+        validate_.finite("patch's centre", disk.centre);
         validate_.positive("patch's radius", disk.radius);
         const Frame<V> across = frame_about(direction_);
         is_disk_ = true;
-        origin_ = disk.center;
+        origin_ = disk.centre;
         edge_u_ = disk.radius * across.u;
         edge_v_ = disk.radius * across.v;
         normal_ = direction_;
@@ -129,8 +129,8 @@ private:
     [[nodiscard]] T way_out_of(const BoundingSphere<V>& scene) const {
         const V last = is_disk_ ? origin_ : origin_ + (T(0.5) * edge_u_ + T(0.5) * edge_v_);
         const T tilt = is_disk_ ? T(0) : T(0.5) * (abs(dot(edge_u_, direction_)) + abs(dot(edge_v_, direction_)));
-        const T ahead = dot(V(last - scene.center), direction_) + tilt;
-        return (std::max)(T(0), ahead + scene.radius + detail::beam_margin(scene.center, scene.radius));
+        const T ahead = dot(V(last - scene.centre), direction_) + tilt;
+        return (std::max)(T(0), ahead + scene.radius + detail::beam_margin(scene.centre, scene.radius));
     }
 
     static constexpr detail::Validator validate_{"DirectionalLight"};

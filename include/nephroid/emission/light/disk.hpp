@@ -18,7 +18,7 @@ public:
     static constexpr EmissionDomain domain{.coordinates = 4};
 
     struct Options {
-        V center;
+        V centre;
         V normal;   ///< on the side that emits, any length but zero
         T radius;   ///< world units, > 0
         F radiance; ///< flux per area and steradian, >= 0
@@ -27,7 +27,7 @@ public:
 
     /// Throws std::invalid_argument for a parameter outside of the ranges above.
     explicit DiskLight(const Options& options)
-        : DiskLight(options, LightPoint<V>{options.center, validated_normal(options)}) {}
+        : DiskLight(options, LightPoint<V>{options.centre, validated_normal(options)}) {}
 
     template <SampleSource<T> S>
     [[nodiscard]] Photon<V, F> emit(S& samples, const Spread<T>& spread) const {
@@ -60,7 +60,7 @@ private:
 
     [[nodiscard]] static V validated_normal(const Options& options) {
         const detail::Validator validate("DiskLight");
-        validate.finite("center", options.center);
+        validate.finite("centre", options.centre);
         validate.positive("radius", options.radius);
         validate.positive("radius squared", square(options.radius));
         validate.flux("radiance", options.radiance);

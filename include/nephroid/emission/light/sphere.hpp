@@ -18,7 +18,7 @@ public:
     static constexpr EmissionDomain domain{.coordinates = 4};
 
     struct Options {
-        V center;
+        V centre;
         T radius;                                               ///< world units, > 0
         F radiance;                                             ///< flux per area and steradian, >= 0
         std::optional<BoundingSphere<V>> target = std::nullopt; ///< not inside of the light
@@ -37,9 +37,9 @@ public:
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
-        EmissionDomain exact = emission_.domain(directions_of(cap_), center_, radius_);
+        EmissionDomain exact = emission_.domain(directions_of(cap_), centre_, radius_);
         // Directions about normals turn over where these lie across the middle one.
-        if (cap_.height >= T(1) && !emission_.aims_everywhere(center_, radius_))
+        if (cap_.height >= T(1) && !emission_.aims_everywhere(centre_, radius_))
             exact.kinks[0] = Kinks::unknown;
         return exact;
     }
@@ -56,16 +56,16 @@ public:
 
 private:
     SphereLight(const Options& options, const Cone<V>& cap)
-        : center_(options.center), radius_(options.radius), cap_(cap), across_(frame_about(cap.axis)),
+        : centre_(options.centre), radius_(options.radius), cap_(cap), across_(frame_about(cap.axis)),
           area_(cap.solid_angle() * square(options.radius)),
           emission_(options.radiance, options.target,
-                    LightPoint<V>{options.center + options.radius * cap.axis, cap.axis}),
+                    LightPoint<V>{options.centre + options.radius * cap.axis, cap.axis}),
           power_(emission_.power(area_, [this](T u1, T u2) { return point(u1, u2); })) {}
 
-    /// The normals n for which the target reaches above the plane (y − center) · n = radius.
+    /// The normals n for which the target reaches above the plane (y − centre) · n = radius.
     [[nodiscard]] static Cone<V> validated_cap(const Options& options) {
         const detail::Validator validate("SphereLight");
-        validate.finite("center", options.center);
+        validate.finite("centre", options.centre);
         validate.positive("radius", options.radius);
         validate.positive("radius squared", square(options.radius));
         validate.flux("radiance", options.radiance);
@@ -73,7 +73,7 @@ private:
         if (!options.target)
             return every_direction<V>();
 
-        const V towards = options.target->center - options.center;
+        const V towards = options.target->centre - options.centre;
         const T distance = length(towards);
         const T reach = distance + (options.target->radius - options.radius);
         if (!(reach > T(0)))
@@ -87,10 +87,10 @@ private:
 
     [[nodiscard]] LightPoint<V> point(T u1, T u2) const {
         const V normal = direction_in(cap_, across_, u1, u2);
-        return {center_ + radius_ * normal, normal};
+        return {centre_ + radius_ * normal, normal};
     }
 
-    V center_;
+    V centre_;
     T radius_;
     Cone<V> cap_;
     Frame<V> across_;

@@ -49,7 +49,7 @@ public:
     void sphere(const char* whose, const std::optional<BoundingSphere<V>>& bounds) const {
         if (!bounds)
             return;
-        finite((std::string(whose) + " centre").c_str(), bounds->center);
+        finite((std::string(whose) + " centre").c_str(), bounds->centre);
         positive((std::string(whose) + " radius").c_str(), bounds->radius);
     }
 
