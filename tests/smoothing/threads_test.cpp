@@ -28,7 +28,7 @@ using V = tests::Vec<float>;
     const BoundingSphere<V> ball{V(0, 0, 1.5f), 1.25f};
     const PointLight<V, float> bulb({.position = V(0.5f, 0, 6), .intensity = 8, .target = ball});
     const DiskLight<V, float> disk(
-        {.center = V(-0.5f, 0, 6), .normal = V(0, 0, -1), .radius = 0.2f, .radiance = 60, .target = ball});
+        {.centre = V(-0.5f, 0, 6), .normal = V(0, 0, -1), .radius = 0.2f, .radiance = 60, .target = ball});
     const DirectionalLight<V, float> sun({.direction = V(0.1f, 0, -1), .irradiance = 1, .patch = ball});
     return StandardLights<V, float>({bulb, disk, sun});
 }
