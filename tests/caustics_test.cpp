@@ -5,6 +5,7 @@
 #include "support/brute_force.hpp"
 #include "support/discard_excess.hpp"
 #include "support/foreign_vectors.hpp"
+#include "support/untidy_scene.hpp"
 #include "transport/tiny_scenes.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
@@ -19,27 +20,17 @@
 #include <string>
 
 using namespace nephroid;
+using tests::ceiling;
 using tests::check_balance;
+using tests::image_of;
+using tests::lamp;
+using tests::map_of;
+using tests::still_water;
+using tests::untidy;
 using tests::Vec;
 using tests::Vertex;
 
 namespace {
-
-template <class V>
-EyePathMap<V> map_of(const std::vector<Vertex<V>>& vertices) {
-    return EyePathMap<V>(vertices, &Vertex<V>::position, &Vertex<V>::normal);
-}
-
-template <class Sums>
-auto image_of(const Sums& sums) {
-    std::vector<typename Sums::flux_type> image;
-    sums.for_each([&](std::size_t i, const auto& sum) {
-        if (i >= image.size())
-            image.resize(i + 1, flux_traits<typename Sums::flux_type>::zero());
-        image[i] = sum;
-    });
-    return image;
-}
 
 /// A sequence of the user's own: the centres of n x n cells in the first two dimensions, one half in all others.
 struct Grid {
@@ -53,19 +44,6 @@ struct Grid {
 };
 static_assert(SampleSequence<Grid>);
 
-/// A lamp over the unit square that shines straight down with irradiance 1.
-template <class T, class F = T>
-DirectionalLight<Vec<T>, F> lamp(T height = 2, F irradiance = F(1)) {
-    return DirectionalLight<Vec<T>, F>(
-        {{0, 0, -1}, irradiance, Parallelogram<Vec<T>>{{0, 0, height}, {1, 0, 0}, {0, 1, 0}}});
-}
-
-/// Still water of index 1.33 over a floor one unit below.
-template <class T, class F = T>
-tests::SheetScene<T, F> still_water() {
-    return {{{{0, 0, 1}, {0, 0, 1}, Event::refract, F(1), 1, T(1.33)}, {{0, 0, 0}, {0, 0, 1}, Event::deposit}}};
-}
-
 /// A floor's pixels: n x n from low to high in x and y.
 template <class T>
 std::vector<Vertex<Vec<T>>> floor_of(int n, double low, double high) {
@@ -73,34 +51,6 @@ std::vector<Vertex<Vec<T>>> floor_of(int n, double low, double high) {
     const double p = (high - low) / n;
     tests::add_lattice<T>(vertices, n, n, p, {low + p / 2, low + p / 2, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
     return vertices;
-}
-
-/// A mirror that throws the lamp's light onto the ceiling, a hole beside it, a black patch, and walls: of every fate
-/// some.
-struct Untidy : tests::SheetScene<float> {
-    template <class Sampler>
-    Scattering<float, float> scatter(const SurfaceHit<glm::vec3, Flat>& hit, const glm::vec3& d,
-                                     Sampler& sampler) const {
-        auto answer = SheetScene<float>::scatter(hit, d, sampler);
-        if (hit.surface == 0) { // the patchwork on the ground
-            const float x = hit.position.x, y = hit.position.y;
-            if (x < 0.2f)
-                answer.event = Event::absorb;
-            else if (x < 0.4f)
-                answer.event = Event::deposit;
-            else if (y < 0.1f)
-                answer.weight = std::numeric_limits<float>::quiet_NaN();
-            else
-                answer.weight = 0.25f + 0.5f * sampler.template next<float>();
-        }
-        return answer;
-    }
-};
-
-Untidy untidy() {
-    return {{{{{0.4f, 0.5f, 0}, {0, 0, 1}, Event::reflect, 1.0f, 1, 1, 0.6f},     // patchwork, with corners missing
-              {{0.7f, 0.7f, 1.5f}, {0, 0, -1}, Event::reflect, 0.5f, 1, 1, 0.2f}, // a mirror over a part of it
-              {{0, 0, 1.9f}, {0, 0, -1}, Event::deposit, 1.0f, 1, 1, 1.2f}}}};    // the ceiling
 }
 
 /// A point light whose photons have spread one way only: needles for ever.
@@ -112,13 +62,6 @@ struct NoSpread : PointLight<glm::vec3, float> {
         return photon;
     }
 };
-
-template <class T>
-std::vector<Vertex<Vec<T>>> ceiling() {
-    std::vector<Vertex<Vec<T>>> vertices;
-    tests::add_lattice<T>(vertices, 40, 40, 0.02, {0.2, 0.2, 1.9}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1});
-    return vertices;
-}
 
 } // namespace
 
@@ -279,83 +222,6 @@ TEST_CASE("caustics: of every fate some and the account balances") {
     CHECK(account[Fate::splatted].photons + account[Fate::unseen].photons == 0);
     for (const float sum : image_of(bare))
         CHECK(sum == 0);
-}
-
-namespace {
-
-/// What the tests of order and threads render: about half of the photons arrive, from several bounces, after roulette.
-template <class Policies, class E>
-std::pair<std::vector<float>, Statistics> render_untidy(E&& executor, const std::vector<PhotonPass>& passes) {
-    const auto vertices = ceiling<float>();
-    const auto map = map_of(vertices);
-    auto sums = nephroid::sums<float>(map);
-    Statistics account;
-    for (PhotonPass pass : passes) {
-        pass.limits.roulette_after = 1;
-        account += nephroid::caustics(untidy(), lamp<float>(1.2f), sums, pass, Policies{}, HaltonSequence{7}, executor);
-    }
-    return {image_of(sums), account};
-}
-
-} // namespace
-
-TEST_CASE_TEMPLATE("caustics: any number of threads renders the same picture bit for bit", Policies, Default,
-                   Published) {
-    const std::vector<PhotonPass> pass{{.count = 6000}};
-    const auto [image, account] = render_untidy<Policies>(SerialExecutor{}, pass);
-    CHECK(account[Fate::splatted].photons > 500);
-    for (const unsigned threads : {1u, 2u, 7u}) {
-        const auto [again, same] = render_untidy<Policies>(ThreadExecutor(threads), pass);
-        CAPTURE(threads);
-        CHECK(again == image);
-        CHECK(same.rays == account.rays);
-        CHECK(same.bounded_shifts == account.bounded_shifts);
-        CHECK(same[Fate::splatted].flux == account[Fate::splatted].flux);
-    }
-}
-
-TEST_CASE("caustics: a scene's exception reaches the caller from any of the threads") {
-    struct Throws : tests::SheetScene<float> {
-        std::optional<SurfaceHit<glm::vec3, Flat>> intersect(const glm::vec3& o, const glm::vec3& d, float low,
-                                                             float high) const {
-            if (o.z < 1.5f && o.x > 0.5f)
-                throw std::runtime_error("out of memory");
-            return SheetScene<float>::intersect(o, d, low, high);
-        }
-    };
-    const auto vertices = floor_of<float>(8, 0, 1);
-    const auto map = map_of(vertices);
-    auto sums = nephroid::sums<float>(map);
-    ThreadExecutor executor(3);
-    const auto run = [&] {
-        (void)nephroid::caustics(Throws{still_water<float>()}, lamp<float>(), sums, {.count = 5000}, HaltonSequence{},
-                                 executor);
-    };
-    CHECK_THROWS_WITH_AS(run(), "out of memory", std::runtime_error);
-}
-
-// Photon i is the same in whichever pass it is traced, so a picture may be made in parts that share the total: to first
-// order the same picture, as no photon knows of another.
-TEST_CASE_TEMPLATE("caustics: two passes over the parts make the picture of one bit for bit", Policies, Published,
-                   Default) {
-    const auto whole = render_untidy<Policies>(SerialExecutor{}, {{.count = 5000}});
-    for (const std::uint64_t cut : {1u, 512u, 1000u, 4999u}) {
-        CAPTURE(cut);
-        const auto split = render_untidy<Policies>(
-            SerialExecutor{}, {{.count = cut, .total = 5000}, {.first = cut, .count = 5000 - cut, .total = 5000}});
-        const auto& sum = split.second;
-        CHECK(split.first == whole.first);
-        CHECK(sum.rays == whole.second.rays);
-        CHECK(sum.emitted.photons == whole.second.emitted.photons);
-        CHECK(sum.emitted.flux == doctest::Approx(whole.second.emitted.flux).epsilon(1e-12));
-        check_balance(sum);
-    }
-}
-
-TEST_CASE("caustics: other photons make another picture") {
-    const auto [image, account] = render_untidy<Published>(SerialExecutor{}, {{.count = 2000}});
-    const auto [other, _] = render_untidy<Published>(SerialExecutor{}, {{.first = 2000, .count = 2000}});
-    CHECK(other != image);
 }
 
 TEST_CASE("caustics: the callback hears of the progress and can stop it") {
