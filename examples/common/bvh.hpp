@@ -2,15 +2,16 @@
 /// @file  A bounding volume hierarchy with eight children a node, over anything that has bounds.
 #pragma once
 
+#include "common/bvh_slabs.hpp"
+#include "common/bvh_split.hpp"
 #include "common/ray.hpp"
 
 #include "nephroid/vector/error.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <utility>
@@ -27,40 +28,15 @@ void prefetch(const Object* object) {
 #endif
 }
 
-/// Some numbers at once, by GCC's and Clang's own extension: as many as one register of any machine holds.
-template <class T>
-struct RegisterOf {
-    typedef T type __attribute__((vector_size(16)));
-    static constexpr std::size_t lanes = 16 / sizeof(T);
-};
-
-/// Of a register's comparisons those that are true, as bits: that of lane i has the number first + i.
-template <class Results>
-[[nodiscard]] Results bits_from(std::size_t first, const Results& results) {
-    Results bits;
-    for (int i = 0; i < int(sizeof(Results) / sizeof(results[0])); ++i)
-        bits[i] = 1 << (int(first) + i);
-    return results & bits;
-}
-
-/// The bits of all lanes together.
-template <class Bits>
-[[nodiscard]] unsigned all_bits(const Bits& bits) {
-    using Halves = typename RegisterOf<long long>::type;
-    const Halves halves = reinterpret_cast<Halves>(bits);
-    const auto both = static_cast<unsigned long long>(halves[0] | halves[1]);
-    return static_cast<unsigned>(both | both >> 32);
-}
-
-/// The hierarchy knows the primitives' bounds alone. Its leaves are numbered from 0 without gaps; what lies in leaf l
-/// is `leaf(l)`, and whoever owns the primitives may lay them out in that order.
+/// A hierarchy over the bounds of primitives. Its leaves are numbered from 0 without gaps; `leaf(l)` lists the
+/// primitives in leaf l, and their owner may store them in that order.
 ///
-/// Built top down: the largest child is split until a node has eight, by the surface area heuristic over 16 bins.
-/// No box that a ray meets in exact arithmetic is missed.
+/// It is built top down: the largest child is split until a node has eight. No box that a ray meets in exact arithmetic
+/// is missed.
 template <class T>
 class Bvh {
 public:
-    static constexpr std::size_t width = 8;
+    static constexpr std::size_t width = Slabs<T>::width;
 
     Bvh() = default;
 
@@ -99,7 +75,7 @@ public:
     void traverse(const Ray<T>& ray, Visit&& visit, Expect&& expect) const {
         if (nodes_.empty() || !(dot(ray.direction, ray.direction) >= 0)) // absent children are no number either
             return;
-        const Slabs slabs(ray);
+        const Slabs<T> slabs(ray);
         struct Pending {
             std::uint32_t child;
             T t;
@@ -150,27 +126,19 @@ public:
     }
 
 private:
-    struct Primitive {
-        Box<T> box;
-        std::uint32_t index;
-    };
-
-    using Lanes = typename RegisterOf<T>::type;
-
-    /// Planes by axis, the lower ones first: x_min, x_max, y_min, ...; an absent child has an empty box.
-    using Planes = std::array<std::array<T, width>, 6>;
+    using Primitive = BvhPrimitive<T>;
+    using Split = BvhSplit<T>;
 
     struct alignas(64) Node {
-        Planes planes;
+        typename Slabs<T>::Planes planes;          ///< of the children's boxes
         std::array<std::uint32_t, width> children; ///< a node's index, or a leaf's number with `leaf_flag`
     };
 
     static constexpr std::uint32_t leaf_flag = 0x80000000u;
-    static constexpr int bin_count = 16;
     static constexpr int max_heuristic_depth = 40; ///< from there on the halves are equal: 16 levels for 2^32
     static constexpr std::size_t max_pending = (width - 1) * (max_heuristic_depth + 16) + width;
 
-    /// What is on the stack is fetched while nearer things are looked at.
+    /// Prefetches what is put on the stack while nearer children are visited.
     template <class Expect>
     void announce(std::uint32_t child, Expect& expect) const {
         if (child & leaf_flag)
@@ -178,50 +146,6 @@ private:
         else
             prefetch(&nodes_[child]);
     }
-
-    /// A ray as the slab test wants it.
-    class Slabs {
-    public:
-        explicit Slabs(const Ray<T>& ray) {
-            // By more than the rounding of (plane − origin) · (1 / direction), so that no box is missed.
-            // Source: Ize 2013, "Robust BVH Ray Traversal".
-            constexpr T stretch = T(1) + T(4) * std::numeric_limits<T>::epsilon();
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                const T inverse = T(1) / ray.direction[int(axis)];
-                origin_[axis] = Lanes{} + ray.origin[int(axis)];
-                inverse_[axis] = Lanes{} + inverse;
-                stretched_[axis] = Lanes{} + inverse * stretch;
-                near_[axis] = 2 * axis + (inverse < T(0) ? 1 : 0);
-            }
-        }
-
-        /// Where the ray enters each of a node's boxes.
-        ///
-        /// @return  the boxes that it meets, as bits. 0 · infinity (in a plane, and parallel to it) fails each
-        ///          comparison and bounds nothing.
-        [[nodiscard]] unsigned enter(const Planes& planes, T t_min, T t_max, std::array<T, width>& t) const {
-            decltype(Lanes{} < Lanes{}) hit{};
-            for (std::size_t first = 0; first < width; first += RegisterOf<T>::lanes) {
-                Lanes from = Lanes{} + t_min, to = Lanes{} + t_max;
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    Lanes low, high;
-                    std::memcpy(&low, &planes[near_[axis]][first], sizeof low);
-                    std::memcpy(&high, &planes[near_[axis] ^ 1][first], sizeof high);
-                    const Lanes a = (low - origin_[axis]) * inverse_[axis];
-                    const Lanes b = (high - origin_[axis]) * stretched_[axis];
-                    from = a > from ? a : from;
-                    to = b < to ? b : to;
-                }
-                std::memcpy(&t[first], &from, sizeof from);
-                hit |= bits_from(first, from <= to);
-            }
-            return all_bits(hit);
-        }
-
-    private:
-        std::array<Lanes, 3> origin_, inverse_, stretched_;
-        std::array<std::size_t, 3> near_;
-    };
 
     static Box<T> bounds_of(std::span<const Primitive> primitives) {
         Box<T> box;
@@ -240,7 +164,8 @@ private:
             std::span<Primitive> primitives;
             Box<T> box;
         };
-        std::array<Child, width> children{Child{all, bounds_of(all)}};
+        const Split splitter(leaf_size_);
+        std::array<Child, width> children{Child{all, Split::bounds_of(all)}};
         std::size_t count = 1;
         while (count < width) {
             Child* largest = nullptr; // by area, or by number once equal halves are called for
@@ -255,9 +180,9 @@ private:
             if (!largest)
                 break;
             const std::span<Primitive> split = largest->primitives;
-            const std::size_t half = depth < max_heuristic_depth ? partition(split) : halve(split);
-            *largest = {split.first(half), bounds_of(split.first(half))};
-            children[count++] = {split.subspan(half), bounds_of(split.subspan(half))};
+            const std::size_t half = depth < max_heuristic_depth ? splitter.partition(split) : Split::halve(split);
+            *largest = {split.first(half), Split::bounds_of(split.first(half))};
+            children[count++] = {split.subspan(half), Split::bounds_of(split.subspan(half))};
         }
 
         const std::size_t index = nodes_.size();
@@ -282,73 +207,6 @@ private:
             order_.push_back(primitive.index);
         leaf_begin_.push_back(order_.size());
         return static_cast<std::uint32_t>(leaf_count() - 1) | leaf_flag;
-    }
-
-    /// Reorders by the cheapest of the splits between bins; returns the size of the lower part, never 0 or all.
-    std::size_t partition(std::span<Primitive> primitives) const {
-        struct Bin {
-            Box<T> box;
-            std::size_t count = 0;
-        };
-        Box<T> centres;
-        for (const Primitive& primitive : primitives)
-            centres.add(centre(primitive));
-
-        T least_cost = std::numeric_limits<T>::infinity();
-        int best_axis = -1, best_split = 0;
-        const auto bin_of = [&](const Primitive& primitive, int axis) {
-            const T scale = T(bin_count) / (centres.max[axis] - centres.min[axis]);
-            return (std::min)(int((centre(primitive)[axis] - centres.min[axis]) * scale), bin_count - 1);
-        };
-        for (int axis = 0; axis < 3; ++axis) {
-            // Also false where a scale would overflow.
-            if (!(centres.max[axis] - centres.min[axis] > T(bin_count) * (std::numeric_limits<T>::min)()))
-                continue;
-            std::array<Bin, bin_count> bins;
-            for (const Primitive& primitive : primitives) {
-                Bin& bin = bins[static_cast<std::size_t>(bin_of(primitive, axis))];
-                bin.box.add(primitive.box);
-                ++bin.count;
-            }
-            std::array<T, bin_count> cost_above{};
-            Box<T> box;
-            std::size_t count = 0;
-            for (std::size_t i = bin_count - 1; i > 0; --i) {
-                box.add(bins[i].box);
-                count += bins[i].count;
-                cost_above[i] = count == 0 ? std::numeric_limits<T>::infinity() : box.half_area() * leaves_for(count);
-            }
-            box = {};
-            count = 0;
-            for (std::size_t i = 1; i < bin_count; ++i) {
-                box.add(bins[i - 1].box);
-                count += bins[i - 1].count;
-                const T cost = box.half_area() * leaves_for(count) + cost_above[i];
-                if (count > 0 && cost < least_cost) {
-                    least_cost = cost;
-                    best_axis = axis;
-                    best_split = int(i);
-                }
-            }
-        }
-        if (best_axis < 0) // all centres coincide
-            return primitives.size() / 2;
-        const auto above = std::partition(primitives.begin(), primitives.end(), [&](const Primitive& primitive) {
-            return bin_of(primitive, best_axis) < best_split;
-        });
-        return static_cast<std::size_t>(above - primitives.begin());
-    }
-
-    static std::size_t halve(std::span<Primitive> primitives) {
-        Box<T> centres;
-        for (const Primitive& primitive : primitives)
-            centres.add(centre(primitive));
-        const Vec3<T> d = centres.max - centres.min;
-        const int axis = d.x >= d.y && d.x >= d.z ? 0 : d.y >= d.z ? 1 : 2;
-        const auto middle = primitives.begin() + static_cast<std::ptrdiff_t>(primitives.size() / 2);
-        std::nth_element(primitives.begin(), middle, primitives.end(),
-                         [axis](const Primitive& a, const Primitive& b) { return centre(a)[axis] < centre(b)[axis]; });
-        return primitives.size() / 2;
     }
 
     std::size_t leaf_size_ = 4;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/bvh.hpp"
+#include "common/registers.hpp"
 
 #include "nephroid/vector/error.hpp"
 
