@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: MIT
-// Caustics by several threads and in several passes. Apart from caustics_test.cpp: the thread sanitizer's build has only
-// the files with a test of threads.
+// SPDX-License-Identifier: MIT Caustics by several threads and in several passes. Apart from caustics_test.cpp: the
+// thread sanitizer's build has only the files with a test of threads.
 #include "nephroid/caustics.hpp"
 
 #include "support/untidy_scene.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Flat scenes under a lamp over the unit square: still water, and one in which of every fate some photons meet it.
+/// @file  Flat scenes under a lamp over the unit square: still water, and one in which of every fate some photons meet
+///        it.
 #pragma once
 
 #include "support/brute_force.hpp"
