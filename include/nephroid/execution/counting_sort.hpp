@@ -53,12 +53,12 @@ public:
     void put(std::size_t part, std::size_t key, const Item& item) { items_[next_[part * keys_ + key]++] = item; }
 
     /// All items, sorted.
-    [[nodiscard]] std::span<Item> items() { return items_; }
-    [[nodiscard]] std::span<const Item> items() const { return items_; }
+    [[nodiscard]] std::span<Item> items() { return {items_.data(), items_.size()}; }
+    [[nodiscard]] std::span<const Item> items() const { return {items_.data(), items_.size()}; }
     /// Those with a key.
-    [[nodiscard]] std::span<Item> items_of(std::size_t key) { return items().subspan(begin_[key], size_of(key)); }
+    [[nodiscard]] std::span<Item> items_of(std::size_t key) { return {items_.data() + begin_[key], size_of(key)}; }
     [[nodiscard]] std::span<const Item> items_of(std::size_t key) const {
-        return items().subspan(begin_[key], size_of(key));
+        return {items_.data() + begin_[key], size_of(key)};
     }
 
 private:

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
-#include <functional>
 #include <type_traits>
 
 namespace nephroid {
@@ -33,9 +32,6 @@ template <class E>
 concept ExecutorArgument = Executor < std::remove_reference_t<E>
 & > ;
 
-/// An executor of any kind, behind one type: code that is given one is compiled once for all.
-using TaskRunner = std::function<void(std::size_t count, const std::function<void(std::size_t)>& task)>;
-
 /// The phases of a pass, for which an executor is called.
 enum class Phase { trace, fit, splat };
 
@@ -56,12 +52,6 @@ template <class E>
 void announce(E& executor, Phase phase) {
     if constexpr (requires { executor.begin(phase); })
         executor.begin(phase);
-}
-
-/// A `TaskRunner` that runs tasks by this executor, which must outlive it.
-template <Executor E>
-[[nodiscard]] TaskRunner run_by(E& executor) {
-    return [&executor](std::size_t count, const std::function<void(std::size_t)>& task) { executor(count, task); };
 }
 
 /// Calls work(i) once for each i in 0 … count − 1, where one index is too little work for a task of its own.

@@ -2,14 +2,13 @@
 /// @file  An executor with threads of its own.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/task_runner.hpp"
 
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
-#include <functional>
 #include <mutex>
 #include <system_error>
 #include <thread>
@@ -50,11 +49,17 @@ public:
 
     template <class Task>
     void operator()(std::size_t count, Task&& task) {
+        const auto call = [&task](std::size_t i) { task(i); };
+        run(count, detail::TaskReference(call));
+    }
+
+private:
+    void run(std::size_t count, const detail::TaskReference& task) {
         if (count == 0)
             return;
         {
             const std::lock_guard lock(mutex_);
-            task_ = std::ref(task);
+            task_ = &task;
             count_ = count;
             next_.store(0, std::memory_order_relaxed);
             error_ = nullptr;
@@ -69,7 +74,6 @@ public:
         rethrow();
     }
 
-private:
     [[nodiscard]] bool begin_worker() {
 #if defined(__cpp_exceptions)
         try {
@@ -104,7 +108,7 @@ private:
         for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) {
 #if defined(__cpp_exceptions)
             try {
-                task_(i);
+                (*task_)(i);
             } catch (...) {
                 const std::lock_guard lock(mutex_);
                 if (!error_)
@@ -112,7 +116,7 @@ private:
                 next_.store(count_, std::memory_order_relaxed);
             }
 #else
-            task_(i);
+            (*task_)(i);
 #endif
         }
     }
@@ -126,7 +130,7 @@ private:
 
     std::mutex mutex_;
     std::condition_variable wake_, idle_;
-    std::function<void(std::size_t)> task_;
+    const detail::TaskReference* task_ = nullptr;
     std::size_t count_ = 0;
     std::atomic<std::size_t> next_{0};
     std::exception_ptr error_;

@@ -75,7 +75,7 @@ public:
         executor(parts, [&](std::size_t part) {
             const std::span<KeyedPhoton> sorted = sorted_.items_of(part);
             const auto from = std::size_t(sorted.data() - sorted_.items().data());
-            sort_part(sorted, std::span(photons_).subspan(from, sorted.size()));
+            sort_part(sorted, {photons_.data() + from, sorted.size()});
         });
         return sorted_.items();
     }
@@ -87,7 +87,7 @@ private:
 
     [[nodiscard]] std::span<KeyedPhoton> photons_of(std::size_t task) {
         const std::size_t from = task * photons_per_task;
-        return std::span(photons_).subspan(from, (std::min)(photons_per_task, photons_.size() - from));
+        return {photons_.data() + from, (std::min)(photons_per_task, photons_.size() - from)};
     }
 
     template <class L, class Sequence>

@@ -163,7 +163,7 @@ template <Scalar T>
     const T lattice = neighbours <= 4 ? T(neighbours) : T(2 * neighbours - 4);
 
     std::array<std::size_t, spacing_probes> centres{};
-    points.nearest(std::span(centres).first(probes));
+    points.nearest({centres.data(), probes});
     std::array<T, spacing_probes> spacing2 =
         points.template sums_of_nearest<detail::spacing_neighbours + 1>(centres, neighbours + 1);
     for (std::size_t k = 0; k < spacing2.size(); ++k) // points that were not measured are sorted last

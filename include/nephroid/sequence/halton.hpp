@@ -53,21 +53,29 @@ template <std::uint32_t Base>
     return size;
 }
 
+/// An array without member functions, each call of which would cost a compiler that fills it in.
+template <std::uint32_t Size>
+struct HaltonTable {
+    static constexpr std::uint32_t size = Size;
+    std::uint16_t entries[Size];
+};
+
 /// For each block of digits its number with the digits permuted and in reverse order.
 template <std::uint32_t Base>
 inline constexpr auto halton_reversed_digits = [] {
     constexpr auto permutation = faure_permutation<Base>();
-    std::array<std::uint16_t, halton_block_size(Base)> reversed{};
+    constexpr std::uint32_t size = halton_block_size(Base);
+    HaltonTable<size> reversed{};
     // One more digit in front moves the others back by one: the table grows from itself, in few steps for each entry,
     // as compilers take about a microsecond for each. The part of digit 0 comes last, as the other parts are made from
     // it.
-    for (std::size_t known = 1; known < reversed.size(); known *= Base) {
-        for (std::size_t i = 0; i < known; ++i)
-            reversed[i] = static_cast<std::uint16_t>(reversed[i] * Base);
-        for (std::size_t digit = Base, end = known * Base; digit-- > 1; end -= known) {
+    for (std::uint32_t known = 1; known < size; known *= Base) {
+        for (std::uint32_t i = 0; i < known; ++i)
+            reversed.entries[i] = static_cast<std::uint16_t>(reversed.entries[i] * Base);
+        for (std::uint32_t digit = Base, end = known * Base; digit-- > 1; end -= known) {
             const std::uint32_t front = permutation[digit];
-            for (std::size_t i = 0, to = end - known; i < known; ++i, ++to)
-                reversed[to] = static_cast<std::uint16_t>(reversed[i] + front);
+            for (std::uint32_t i = 0, to = end - known; i < known; ++i, ++to)
+                reversed.entries[to] = static_cast<std::uint16_t>(reversed.entries[i] + front);
         }
     }
     return reversed;
@@ -85,12 +93,12 @@ template <std::floating_point T, std::uint32_t Base>
         return uniform_from_bits<T>(reverse_bits(index));
     } else {
         constexpr auto& reversed_digits = halton_reversed_digits<Base>;
-        constexpr std::uint64_t block = reversed_digits.size();
+        constexpr std::uint64_t block = reversed_digits.size;
         constexpr std::uint64_t last = std::uint64_t((std::numeric_limits<std::int64_t>::max)()) / block;
 
         std::uint64_t numerator = 0, denominator = 1;
         for (; index != 0 && denominator <= last; index /= block, denominator *= block)
-            numerator = numerator * block + reversed_digits[index % block];
+            numerator = numerator * block + reversed_digits.entries[index % block];
         const double value = static_cast<double>(static_cast<std::int64_t>(numerator)) /
                              static_cast<double>(static_cast<std::int64_t>(denominator));
         constexpr T below_one = T(1) - std::numeric_limits<T>::epsilon() / 2;

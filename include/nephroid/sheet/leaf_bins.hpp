@@ -28,7 +28,7 @@ public:
 
     [[nodiscard]] std::size_t groups() const { return groups_; }
     [[nodiscard]] std::span<const BinnedBlock> operator[](std::size_t group) const {
-        return std::span(bins_).subspan(begin_[group], begin_[group + 1] - begin_[group]);
+        return {bins_.data() + begin_[group], begin_[group + 1] - begin_[group]};
     }
 
     /// A counting sort, of which 16 parts count and move their visits at the same time.

@@ -73,7 +73,7 @@ Statistics splat_in_batches(Splatter& splatter, std::uint64_t count, const Prepa
             accounts[c] = chunk_account;
         });
         announce(executor, Phase::splat);
-        splatter.add(std::span<const Chunk>(chunks), executor);
+        splatter.add({chunks.data(), chunks.size()}, executor);
 
         std::uint64_t visited = 0;
         for (std::size_t c = 0; c < BatchSizes::chunks; ++c) {

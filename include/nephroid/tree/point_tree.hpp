@@ -43,16 +43,16 @@ public:
         leaves_ = std::move(built.leaves);
         index_ = std::move(built.index);
         coordinates_ = std::move(built.coordinates);
-        wide_ = detail::WideTree<T>(nodes_);
+        wide_ = detail::WideTree<T>(nodes());
     }
 
     /// A view of the tree, valid as long as the tree lives and its points are not moved.
     [[nodiscard]] View view() const {
         return View({origin_,
-                     nodes_,
+                     nodes(),
                      wide_.nodes(),
-                     leaves_,
-                     index_,
+                     leaves(),
+                     {index_.data(), index_.size()},
                      {coordinates_[0].data(), coordinates_[1].data(), coordinates_[2].data()}});
     }
 
@@ -60,8 +60,8 @@ public:
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
     [[nodiscard]] V origin() const { return view().origin(); }
     [[nodiscard]] Box<T> bounds() const { return view().bounds(); }
-    [[nodiscard]] std::span<const TreeNode<T>> nodes() const { return nodes_; }
-    [[nodiscard]] std::span<const TreeLeaf> leaves() const { return leaves_; }
+    [[nodiscard]] std::span<const TreeNode<T>> nodes() const { return {nodes_.data(), nodes_.size()}; }
+    [[nodiscard]] std::span<const TreeLeaf> leaves() const { return {leaves_.data(), leaves_.size()}; }
     [[nodiscard]] std::size_t slots() const { return index_.size(); }
     [[nodiscard]] std::uint32_t index(std::size_t slot) const { return index_[slot]; }
     [[nodiscard]] const T* x() const { return coordinates_[0].data(); }
@@ -98,13 +98,13 @@ public:
             if (nodes_[i].leaf != no_leaf)
                 refit_leaf(leaves_[nodes_[i].leaf], nodes_[i].box);
         });
-        detail::gather_upwards<T>(nodes_, [&](std::size_t node, std::size_t child) {
+        detail::gather_upwards<T>(nodes(), [&](std::size_t node, std::size_t child) {
             if (child == node + 1)
                 nodes_[node].box = nodes_[child].box;
             else
                 nodes_[node].box.add(nodes_[child].box);
         });
-        wide_.refit(nodes_);
+        wide_.refit(nodes());
     }
 
 private:

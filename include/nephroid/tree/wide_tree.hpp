@@ -27,7 +27,7 @@ public:
         refit(nodes);
     }
 
-    [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
+    [[nodiscard]] std::span<const Node> nodes() const { return {nodes_.data(), nodes_.size()}; }
 
     /// Updates the boxes after the binary nodes' boxes have changed.
     void refit(std::span<const TreeNode<T>> nodes) {

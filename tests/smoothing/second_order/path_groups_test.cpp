@@ -20,13 +20,10 @@ using tests::photons_of;
 
 namespace {
 
-const TaskRunner one_by_one = [](std::size_t count, const std::function<void(std::size_t)>& task) {
-    for (std::size_t i = 0; i < count; ++i)
-        task(i);
-};
+const SerialExecutor one_by_one;
 
 [[nodiscard]] PathGroups groups_of(const std::vector<MapPhoton>& photons, bool repeats = false) {
-    return {PathSamples(photons), repeats, one_by_one};
+    return {PathSamples(photons), repeats, TaskRunner(one_by_one)};
 }
 
 /// @param path  a photon's signature, or 0 if it is lost, by its sample
@@ -114,8 +111,7 @@ TEST_CASE("path groups: any number of threads finds the same groups") {
     const PathGroups serial = groups_of(photons);
     for (const unsigned threads : {2u, 7u}) {
         ThreadExecutor executor(threads);
-        const PathGroups again(PathSamples(photons), false,
-                               [&](std::size_t count, const auto& task) { executor(count, task); });
+        const PathGroups again(PathSamples(photons), false, TaskRunner(executor));
         for (std::size_t k = 0; k < serial.groups().size(); ++k)
             CHECK(again.groups()[k].share == serial.groups()[k].share);
         for (std::size_t i = 0; i < photons.size(); ++i)

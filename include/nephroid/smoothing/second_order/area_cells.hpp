@@ -30,7 +30,7 @@ public:
 
     /// @param samples  of the photons, in their order
     /// @param counts   cells along each axis, >= 1
-    AreaCells(std::span<const AreaSample> samples, const CellCoordinates& counts)
+    AreaCells(const std::vector<AreaSample>& samples, const CellCoordinates& counts)
         : counts_(counts), contents_(size(), samples.size(), [&](std::size_t i) { return cell_of(samples[i]); }) {}
 
     /// The number of cells along each axis, such that a cell holds about `photons_per_cell` photons. The numbers are in

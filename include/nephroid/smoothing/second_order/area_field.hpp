@@ -37,7 +37,7 @@ public:
     /// @param executor  runs the fits; the field does not depend on it
     template <class Photons, class E>
     AreaField(const Photons& photons, const FieldOptions& options, E& executor)
-        : AreaField(AreaPhotons(PathSamples(photons)), options, run_by(executor)) {}
+        : AreaField(AreaPhotons(PathSamples(photons)), options, TaskRunner(executor)) {}
 
     /// @return  nothing where the photons determine nothing: there are too few, or none took this path
     [[nodiscard]] std::optional<FieldSample> at(const EmissionSample& drawn, const EmissionFrame& frame,

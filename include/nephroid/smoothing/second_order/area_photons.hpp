@@ -26,7 +26,7 @@ public:
 
     [[nodiscard]] std::size_t size() const { return samples_.size(); }
     [[nodiscard]] const PathSample& operator[](std::size_t i) const { return photons_[i]; }
-    [[nodiscard]] std::span<const AreaSample> samples() const { return samples_; }
+    [[nodiscard]] const std::vector<AreaSample>& samples() const { return samples_; }
 
     /// Whether a photon landed at the end of the path with a signature.
     [[nodiscard]] bool is_on(std::size_t i, std::uint32_t signature) const {

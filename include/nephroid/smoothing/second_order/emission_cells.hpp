@@ -90,7 +90,7 @@ public:
     /// @param aspect    length of the domain along the first coordinate over that along the second
     /// @param repeats   whether opposite borders of the domain are neighbours
     /// @param per_cell  photons in a cell, on average over the whole square, > 0
-    EmissionCells(std::span<const std::array<double, 2>> samples, double aspect, bool repeats,
+    EmissionCells(const std::vector<std::array<double, 2>>& samples, double aspect, bool repeats,
                   double per_cell = photons_per_cell)
         : repeats_(repeats) {
         const double cells = (std::max)(double(samples.size()) / per_cell, 1.0);

@@ -14,16 +14,7 @@ public:
     /// @param executor  runs the fits; the field does not depend on it
     template <class Photons, class E>
     FootprintField(const Photons& photons, const FieldOptions& options, E& executor)
-        : FootprintField(PathSamples(photons), options, run_by(executor)) {}
-
-    /// @return  nothing where the photons determine nothing: too few of them took this path
-    [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame,
-                                                std::uint32_t signature) const {
-        const Group* group = find(signature);
-        return group != nullptr && group->field ? group->field->at(sample, frame) : std::nullopt;
-    }
-
-private:
+        : FootprintField(PathSamples(photons), options, TaskRunner(executor)) {}
     FootprintField(const PathSamples& photons, const FieldOptions& options, const TaskRunner& run) {
         const PathGroups groups(photons, options.repeats, run);
         groups_.reserve(groups.groups().size());
@@ -34,6 +25,14 @@ private:
         }
     }
 
+    /// @return  nothing where the photons determine nothing: too few of them took this path
+    [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame,
+                                                std::uint32_t signature) const {
+        const Group* group = find(signature);
+        return group != nullptr && group->field ? group->field->at(sample, frame) : std::nullopt;
+    }
+
+private:
     static constexpr double fewest = 4 * EmissionCells::photons_per_cell;
 
     struct Group {

@@ -8,7 +8,7 @@
 /// one.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/task_runner.hpp"
 #include "nephroid/smoothing/second_order/emission_cells.hpp"
 
 #include <array>
@@ -50,7 +50,7 @@ public:
     }
 
     /// Sorted by signature.
-    [[nodiscard]] std::span<const PathGroup> groups() const { return groups_; }
+    [[nodiscard]] const std::vector<PathGroup>& groups() const { return groups_; }
     /// The length of the domain along the first coordinate over that along the second.
     [[nodiscard]] double aspect() const { return aspect_; }
     /// Whether the border of a photon's group lies within the photon's cell.
@@ -110,7 +110,7 @@ private:
 
     /// The photons of a cell and of the cells around it; none if all of them took the same path.
     [[nodiscard]] static std::vector<std::uint32_t>
-    photons_around_if_mixed(const EmissionCells& cells, std::size_t cell, std::span<const std::uint32_t> group_of) {
+    photons_around_if_mixed(const EmissionCells& cells, std::size_t cell, const std::vector<std::uint32_t>& group_of) {
         std::vector<std::uint32_t> around;
         if (cells.photons(cell).empty())
             return around;
@@ -125,7 +125,7 @@ private:
 
     /// Finds the three nearest neighbours of each photon in a cell; none where all photons around took the same path.
     static void find_neighbours(const EmissionCells& cells, std::size_t cell, const PathSamples& photons,
-                                std::span<const std::uint32_t> group_of, std::span<Neighbours> neighbours) {
+                                const std::vector<std::uint32_t>& group_of, std::vector<Neighbours>& neighbours) {
         const auto around = photons_around_if_mixed(cells, cell, group_of);
         if (around.empty())
             return;
@@ -152,8 +152,8 @@ private:
     }
 
     /// Sets, for each photon in a cell, its group's share of the photons around, and whether the group ends here.
-    void measure_shares(const EmissionCells& cells, std::size_t cell, std::span<const std::uint32_t> group_of,
-                        std::span<const Neighbours> neighbours, std::span<float> shares) {
+    void measure_shares(const EmissionCells& cells, std::size_t cell, const std::vector<std::uint32_t>& group_of,
+                        const std::vector<Neighbours>& neighbours, std::vector<float>& shares) {
         const auto around = photons_around_if_mixed(cells, cell, group_of);
         if (around.empty())
             return;

@@ -5,7 +5,7 @@
 #include "nephroid/smoothing/second_order/bending.hpp"
 
 #include <limits>
-#include <span>
+#include <vector>
 
 namespace nephroid::detail {
 
@@ -22,7 +22,7 @@ struct TangentResidual {
 /// footprints would only show single photons.
 ///
 /// @return  0 for fewer than two photons
-[[nodiscard]] inline double roughness(std::span<const TangentResidual> photons) {
+[[nodiscard]] inline double roughness(const std::vector<TangentResidual>& photons) {
     if (photons.size() < 2)
         return 0;
     constexpr double limit = 0.15;
