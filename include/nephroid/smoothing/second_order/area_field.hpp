@@ -11,7 +11,7 @@
 /// footprints beside them show single photons sooner.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/task_runner.hpp"
 #include "nephroid/smoothing/second_order/area_border_search.hpp"
 #include "nephroid/smoothing/second_order/area_cell_fit.hpp"
 #include "nephroid/smoothing/second_order/area_grid.hpp"
