@@ -17,8 +17,8 @@ public:
     template <class Work>
         requires(std::is_object_v<Work> && !std::same_as<std::remove_const_t<Work>, TaskReference>)
     explicit TaskReference(Work& work)
-        : work_(&work), call_([](const void* its, std::size_t i) { (*static_cast<Work*>(const_cast<void*>(its)))(i); }) {
-    }
+        : work_(&work),
+          call_([](const void* its, std::size_t i) { (*static_cast<Work*>(const_cast<void*>(its)))(i); }) {}
 
     void operator()(std::size_t i) const { call_(work_, i); }
 

@@ -54,7 +54,11 @@ public:
         for (std::size_t i = 0; !rows_[0].empty() && i < rows.size(); ++i)
             rows[i] = rows_[i].data();
         return {tree_.view(),
-                {{leaves_.data(), leaves_.size()}, {nodes_.data(), nodes_.size()}, {normals_[0].data(), normals_[1].data(), normals_[2].data()}, rows, diagonal_}};
+                {{leaves_.data(), leaves_.size()},
+                 {nodes_.data(), nodes_.size()},
+                 {normals_[0].data(), normals_[1].data(), normals_[2].data()},
+                 rows,
+                 diagonal_}};
     }
 
     // See EyePathView.

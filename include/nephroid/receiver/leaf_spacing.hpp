@@ -21,7 +21,8 @@ template <Vector3 V>
         middle[axis] = std::accumulate(first, first + leaf.size, T(0)) / T(leaf.size);
     }
     std::array<Neighbour<T>, 24> found;
-    const std::size_t count = tree.nearest(make_vector<V>(middle[0], middle[1], middle[2]), {found.data(), found.size()});
+    const std::size_t count =
+        tree.nearest(make_vector<V>(middle[0], middle[1], middle[2]), {found.data(), found.size()});
     std::array<std::array<T, 24>, 3> around;
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis)

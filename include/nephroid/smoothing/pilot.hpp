@@ -87,7 +87,8 @@ template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class Polic
                                                .photons = double(pass.emitted_in_all()),
                                                .largest_reach = largest_reach};
     announce(executor, Phase::fit);
-    return Footprints(std::span<const TracedPhoton<V, F, N>>(pilot.photons.data(), pilot.photons.size()), options, executor);
+    return Footprints(std::span<const TracedPhoton<V, F, N>>(pilot.photons.data(), pilot.photons.size()), options,
+                      executor);
 }
 
 } // namespace nephroid::detail

@@ -36,7 +36,8 @@ struct AreaBorder {
 /// @return  nothing where all photons belong to the group, or where the two kinds are mixed
 template <class IsInGroup>
 [[nodiscard]] std::optional<AreaBorder> border_near(const AreaCells& cells, std::size_t cell,
-                                                    const std::vector<AreaSample>& samples, const IsInGroup& is_in_group) {
+                                                    const std::vector<AreaSample>& samples,
+                                                    const IsInGroup& is_in_group) {
     struct Side {
         AreaSample sum{};
         double count = 0;

@@ -71,8 +71,7 @@ public:
 
 private:
     using OnlyField = std::conditional_t<domains.four, AreaField, FootprintField>;
-    using Field =
-        std::conditional_t<domains.two && domains.four, std::variant<FootprintField, AreaField>, OnlyField>;
+    using Field = std::conditional_t<domains.two && domains.four, std::variant<FootprintField, AreaField>, OnlyField>;
 
     /// The index of a light, and the number of coordinates of its domain.
     [[nodiscard]] static std::uint64_t origin_of(const EmissionSample& sample) {
@@ -101,7 +100,8 @@ private:
                 fields_.push_back(AreaField(photons, field, run));
     }
 
-    [[nodiscard]] static std::optional<FieldSample> field_sample(const FootprintField& field, const PathSample& photon) {
+    [[nodiscard]] static std::optional<FieldSample> field_sample(const FootprintField& field,
+                                                                 const PathSample& photon) {
         return field.at(photon.sample.at, photon.frame, photon.signature);
     }
     [[nodiscard]] static std::optional<FieldSample> field_sample(const AreaField& field, const PathSample& photon) {
