@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Frisvad's aligned bases: two tangents are enough for a light with both an area and a solid angle.
+/// @file  Frisvad's aligned bases, with which two tangents suffice for a light with both an area and a solid angle.
 #pragma once
 
 #include "nephroid/vector/frame.hpp"

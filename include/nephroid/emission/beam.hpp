@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Patches that a collimated beam starts from, and the smallest ones over what it shall light.
+/// @file  The patches that collimated beams start from, and the smallest patch that lights given points.
 #pragma once
 
 #include "nephroid/emission/target.hpp"
@@ -21,7 +21,7 @@ struct BeamDisk {
     scalar_t<V> radius; ///< world units, > 0
 };
 
-/// corner + [0, 1] edge_u + [0, 1] edge_v; need not lie across the beam.
+/// The parallelogram corner + [0, 1] edge_u + [0, 1] edge_v; it need not be perpendicular to the beam.
 template <Vector3 V>
 struct Parallelogram {
     V corner;
@@ -29,12 +29,12 @@ struct Parallelogram {
     V edge_v;
 };
 
-/// Where a beam starts. A sphere stands for the disk that covers it, in front of it.
+/// The patch that a beam starts from. A sphere stands for the disk in front of it that covers it.
 template <Vector3 V>
 using BeamPatch = std::variant<BoundingSphere<V>, BeamDisk<V>, Parallelogram<V>>;
 
 namespace detail {
-/// How far outside of its bounds a beam starts: a part of their size, and what rounding adds far from the origin.
+/// How far outside of the bounds a beam starts: a fraction of their size, plus the rounding far from the origin.
 template <Vector3 V>
 [[nodiscard]] scalar_t<V> beam_margin(const V& centre, scalar_t<V> size) {
     using T = scalar_t<V>;
@@ -83,7 +83,7 @@ struct Rectangle {
     [[nodiscard]] T area() const { return (high_x - low_x) * (high_y - low_y); }
 };
 
-/// The smallest rectangle about a convex polygon has a side on one of the polygon's. O(n²), n corners.
+/// The smallest rectangle around a convex polygon; one of its sides lies on one of the polygon's. O(n²) for n corners.
 /// Source: Freeman and Shapira 1975, "Determining the minimum-area encasing rectangle for an arbitrary closed curve".
 template <Scalar T>
 [[nodiscard]] Rectangle<T> smallest_rectangle(const std::vector<BeamCoordinates<T>>& hull) {
@@ -112,7 +112,7 @@ template <Scalar T>
 }
 } // namespace detail
 
-/// The disk across a beam that covers a sphere, in front of it.
+/// The disk perpendicular to a beam that lies in front of a sphere and covers it.
 ///
 /// @param direction  of the beam, unit
 template <Vector3 V>
@@ -121,7 +121,8 @@ template <Vector3 V>
     return {sphere.centre - back * direction, sphere.radius};
 }
 
-/// The smaller of a disk and a rectangle (of any turn) across a beam that cover all points, in front of them.
+/// The smaller of a disk and a rectangle (in any rotation) that are perpendicular to a beam, lie in front of all points
+/// and cover them.
 ///
 /// @param direction  of the beam, any length but zero
 /// @param points     corners of bounds, finite; at least two that do not lie on one line along the beam.

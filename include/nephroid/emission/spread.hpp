@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How far apart emitted photons are: the initial lengths of their tangents.
+/// @file  The spread of emitted photons, which determines the initial lengths of their tangents.
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
@@ -12,9 +12,9 @@ struct Spread {
     T photons;   ///< N_e, the number the light's flux is divided by, > 0
     T smoothing; ///< s, > 0: at emission the footprints' areas add up to s² times the domain
 
-    /// The length of each of two orthogonal tangents of a photon drawn uniformly from a domain of this measure
-    /// (area, or solid angle in steradian): 2 s sqrt(measure / (π N)). A photon drawn with a probability density p
-    /// stands for a measure of 1/p: pass that. A domain that is a point has measure 0, and so has the tangent.
+    /// The length of each of two orthogonal tangents of a photon drawn uniformly from a domain of this measure (area,
+    /// or solid angle in steradian): 2 s sqrt(measure / (π N)). For a photon drawn with a probability density p, pass
+    /// a measure of 1/p. A domain that is a single point has measure 0, and the tangent's length is 0.
     /// Source: Frisvad et al. 2014, eq. 5 and 6; the density version is nephroid's.
     [[nodiscard]] T length(T measure) const { return T(2) * smoothing * sqrt(measure / (pi<T> * photons)); }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a light is aimed at: a sphere about the specular objects, and the cone it fills from a point.
+/// @file  The target of a light: a sphere around the specular objects, and the cone that it fills from a point.
 #pragma once
 
 #include "nephroid/emission/cone.hpp"
@@ -10,16 +10,17 @@
 
 namespace nephroid {
 
-/// Bounds of the objects that photons are wanted at. A light that is aimed at it sends photons to every point that it
-/// lights in there, with the flux that it sends there unaimed, and none (or few) elsewhere.
+/// Bounds of the objects that photons should reach. A light that is aimed at them sends the same flux to every point
+/// inside as without an aim, and no photons (or few) elsewhere.
 template <Vector3 V>
 struct BoundingSphere {
     V centre;
     scalar_t<V> radius; ///< world units, > 0
 };
 
-/// A sphere that holds all points: about the centre of their box, reaching to the furthest of them (and a few units
-/// in the last place beyond). At most sqrt(3) times as wide as the smallest one, for a box's corners the smallest.
+/// A sphere that contains all points. Its centre is that of their box, and it reaches a few units in the last place
+/// beyond the furthest point. It is at most sqrt(3) times as wide as the smallest sphere; for the corners of a box it
+/// is the smallest.
 ///
 /// @param points  a range of vectors, finite, at least one; else std::invalid_argument. Bounds of several objects are
 ///                bounded by passing the corners of their boxes. One point has a sphere of radius 0, no light's target.
