@@ -6,8 +6,8 @@
 #include "nephroid/pass/coherent_order.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/sequence/sequence.hpp"
+#include "nephroid/smoothing/second_order/path_pieces.hpp"
 #include "nephroid/smoothing/second_order/second_order.hpp"
-#include "nephroid/transport/trail.hpp"
 #include "nephroid/transport/walk.hpp"
 
 #include <algorithm>
@@ -25,18 +25,19 @@ using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type, 
 /// Traces a photon, emitted with smoothing 1.
 ///
 /// @param index  of the photon in the whole picture, not in the pass
+/// @param trail  notes its path
 template <class S, class L, class Sequence>
 [[nodiscard]] traced_photon_t<L> trace_photon(const S& scene, const L& light, const PhotonPass& pass,
-                                              const Sequence& sequence, std::uint64_t index, Statistics& account) {
+                                              const Sequence& sequence, std::uint64_t index, Statistics& account,
+                                              PathTrail& trail) {
     using T = scalar_t<typename L::vector>;
     const Spread<T> spread{T(pass.emitted_in_all()), T(1)};
     Sampler<Sequence> sampler(sequence, index);
     RecordingSource<Sampler<Sequence>> recorder(sampler, coordinates_of<L>);
     const auto emitted = light.emit(recorder, spread);
     assert(recorder.is_complete()); // otherwise the light drew fewer numbers than its `domain` has coordinates
-    PathSignature signature;
-    const auto deposit = walk(scene, emitted, sampler, pass.limits, account, signature);
-    return {recorder.sample(), EmissionFrame(emitted), signature.value(), deposit};
+    const auto deposit = walk(scene, emitted, sampler, pass.limits, account, trail);
+    return {recorder.sample(), EmissionFrame(emitted), trail.value(), deposit};
 }
 
 /// The first photons of the picture that a pass is a part of. All passes of one picture make the same pilot. A pass
@@ -46,6 +47,7 @@ struct Pilot {
     std::uint64_t first = 0; ///< index of the first photon
     std::vector<Photon> photons;
     std::vector<Statistics> accounts; ///< of each photon; added up as it is splatted, since a pass may be stopped
+    PathPieces<typename Photon::vector> pieces{}; ///< by which its photons have been told apart
 
     [[nodiscard]] bool has(std::uint64_t index) const { return index >= first && index - first < photons.size(); }
     [[nodiscard]] Photon take(std::uint64_t index, Statistics& account) const {
@@ -63,10 +65,14 @@ template <class S, class L, class Sequence, class E>
     announce(executor, Phase::trace);
     CoherentOrder order;
     const std::span<const KeyedPhoton> sorted = order.sort(light, sequence, pilot.first, count, executor);
+    typename PathPieces<typename L::vector>::FirstPoints firsts(count);
     for_each_index(executor, count, 512, [&](std::size_t position) {
         const std::size_t i = sorted[position].number;
-        pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i]);
+        PathTrail trail;
+        pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i], trail);
+        firsts[i] = trail.first();
     });
+    pilot.pieces = PathPieces<typename L::vector>(pilot.photons, firsts, run_by(executor));
     return pilot;
 }
 

@@ -64,8 +64,12 @@ Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& 
     Splatter splatter(sums, policies);
     TracedBatch<traced_photon_t<L>> batch;
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {
-        return pilot.has(pass.first + i) ? pilot.take(pass.first + i, account)
-                                         : trace_photon(scene, light, pass, sequence, pass.first + i, account);
+        if (pilot.has(pass.first + i))
+            return pilot.take(pass.first + i, account);
+        PathTrail trail;
+        auto photon = trace_photon(scene, light, pass, sequence, pass.first + i, account, trail);
+        pilot.pieces.tell_apart(photon, trail.first());
+        return photon;
     };
     return splat_in_batches(
         splatter, pass.count,

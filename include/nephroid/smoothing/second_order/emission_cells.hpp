@@ -40,6 +40,8 @@ struct PathSample {
 /// A photon's sample of the map, and the deposit to splat.
 template <Vector3 V, Flux F, std::size_t N>
 struct TracedPhoton : PathSample {
+    using vector = V;
+
     std::optional<Deposit<V, F, N>> deposit; ///< nothing if it did not land
 
     TracedPhoton() = default;

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "nephroid/smoothing/second_order/surface_pieces.hpp"
+
+#include "nephroid/emission/warp.hpp"
+#include "nephroid/sequence/halton.hpp"
+#include "nephroid/vector/glm.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+using namespace nephroid;
+using namespace nephroid::detail;
+
+namespace {
+
+using Pieces = SurfacePieces<glm::dvec3>;
+
+const TaskRunner one_by_one = [](std::size_t count, const std::function<void(std::size_t)>& task) {
+    for (std::size_t i = 0; i < count; ++i)
+        task(i);
+};
+
+/// @param surface  surface(u, v) -> SurfacePoint
+template <class Surface>
+[[nodiscard]] std::vector<SurfacePoint> points_on(const Surface& surface, std::size_t count = 4000) {
+    const HaltonSequence sequence;
+    std::vector<SurfacePoint> points;
+    for (std::size_t i = 0; i < count; ++i)
+        points.push_back(surface(sequence.sample<double>(i, 0), sequence.sample<double>(i, 1)));
+    return points;
+}
+
+constexpr Space3 up{0, 0, 1};
+
+/// The points of two pieces, each as a half: piece 0 or 1 by where a point lies.
+template <class IsFirst>
+void check_halves(const std::vector<SurfacePoint>& points, const IsFirst& is_first) {
+    const Pieces pieces(points, one_by_one);
+    REQUIRE(pieces.sizes().size() == 2);
+    for (std::size_t i = 1; i < points.size(); ++i)
+        CHECK((pieces[i] == pieces[0]) == (is_first(points[i]) == is_first(points[0])));
+}
+
+} // namespace
+
+TEST_CASE("surface pieces: smooth surfaces are whole") {
+    CHECK(Pieces(points_on([](double u, double v) {
+                     return SurfacePoint{{u, v, 0}, up};
+                 }),
+                 one_by_one)
+              .sizes() == std::vector<std::uint32_t>{4000});
+    const auto ball = [](double u, double v) {
+        const Space3 n = space3(sphere_direction<glm::dvec3>(u, v));
+        return SurfacePoint{0.3 * n, n};
+    };
+    CHECK(Pieces(points_on(ball), one_by_one).sizes() == std::vector<std::uint32_t>{4000});
+    const auto wave = [](double u, double v) { // slopes up to 0.5, as those of water
+        const double slope = 0.5 * std::cos(40 * u), length = std::hypot(1.0, slope);
+        return SurfacePoint{{u, v, 0.0125 * std::sin(40 * u)}, {-slope / length, 0, 1 / length}};
+    };
+    CHECK(Pieces(points_on(wave), one_by_one).sizes() == std::vector<std::uint32_t>{4000});
+}
+
+// 4000 points on a unit square are 0.016 apart.
+TEST_CASE("surface pieces: a step, an edge and a ball above a floor part them") {
+    check_halves(points_on([](double u, double v) {
+                     return SurfacePoint{{u, v, u < 0.4 ? 0.01 : 0}, up};
+                 }),
+                 [](const SurfacePoint& p) { return p.position.x < 0.4; });
+    check_halves(points_on([](double u, double v) {
+                     return u < 0.4 ? SurfacePoint{{u, v, 0}, up} : SurfacePoint{{0.4, v, u - 0.4}, {-1, 0, 0}};
+                 }),
+                 [](const SurfacePoint& p) { return p.normal.z > 0.5; });
+    check_halves(points_on([](double u, double v) {
+                     const double x = 2 * u - 1, y = 2 * v - 1, rest = 0.25 - x * x - y * y;
+                     if (!(rest > 0))
+                         return SurfacePoint{{x, y, 0}, up};
+                     const Space3 n = 2 * Space3{x, y, std::sqrt(rest)};
+                     return SurfacePoint{{x, y, 1 + std::sqrt(rest)}, n};
+                 }),
+                 [](const SurfacePoint& p) { return p.position.z > 0.5; });
+}
+
+TEST_CASE("surface pieces: another point is known by its neighbours or not at all") {
+    const Pieces pieces(points_on([](double u, double v) {
+                            return SurfacePoint{{u, v, u < 0.4 ? 0.5 : 0}, up};
+                        }),
+                        one_by_one);
+    REQUIRE(pieces.sizes().size() == 2);
+    CHECK(pieces.piece_about({{0.7, 0.5, 0}, up}) == 0); // the larger one
+    CHECK(pieces.piece_about({{0.2, 0.5, 0.5}, up}) == 1);
+    CHECK(pieces.piece_about({{0.2, 0.5, 0.25}, up}) == Pieces::unknown);
+    CHECK(pieces.piece_about({{0.7, 0.5, 0}, {0, 0, -1}}) == Pieces::unknown);
+}
