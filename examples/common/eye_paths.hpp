@@ -51,6 +51,8 @@ struct EyePath {
     F throughput;
     Medium medium;
     unsigned depth;
+    Contacts<T> contacts{}; ///< of the surfaces that it leaves
+    std::size_t left = 0;   ///< the material of the last of them
 };
 
 /// Follows one camera ray. Glass splits it in two.
@@ -71,13 +73,22 @@ public:
             EyePath<T, F> path = pending_.back();
             pending_.pop_back();
             ++result_.rays;
-            const auto hit = scene_.intersect(path.origin, path.direction, T(0), std::numeric_limits<T>::infinity());
+            const auto hit = scene_.intersect(path.origin, path.direction, path.contacts.t_min(),
+                                              std::numeric_limits<T>::infinity(), path.contacts);
             if (!hit)
                 continue;
-            path.throughput = path.throughput * scene_.transmittance(path.medium, hit->distance);
+            const T slope = dot(path.direction, hit->geometric_normal);
+            if (path.contacts.is_here(hit->distance, slope) && hit->surface == path.left &&
+                (slope > T(0)) == path.contacts.leaves_along_normal()) { // the triangle beside, at their edge
+                path.contacts.leave_beside(hit->primitive);
+                pending_.push_back(path);
+                continue;
+            }
+            const T flown = (std::max)(hit->distance, T(0)); // less where surfaces touch
+            path.throughput = path.throughput * scene_.transmittance(path.medium, flown);
 
             const Material<F>& material = scene_.material(*hit);
-            const bool from_front = dot(path.direction, hit->geometric_normal) < T(0);
+            const bool from_front = slope < T(0);
             if (material.emits() && (from_front || material.emits_on_both_sides)) {
                 F& emitted = result_.emitted[pixel - first_pixel];
                 emitted = emitted + path.throughput * material.emission * grey<F>(1.0 / options_.samples);
@@ -139,8 +150,11 @@ private:
         const F throughput = path.throughput * weight;
         if (!leaves || !(flux_traits<F>::power(throughput) >= options_.least_weight))
             return;
-        const T off = (dot(direction, hit.geometric_normal) > T(0) ? T(2) : T(-2)) * hit.position_error;
-        pending_.push_back({hit.position + off * hit.geometric_normal, direction, throughput, medium, path.depth + 1});
+        const T arrives = dot(path.direction, hit.geometric_normal), goes = dot(direction, hit.geometric_normal);
+        Contacts<T> contacts = path.contacts;
+        contacts.leave(hit.primitive, goes, T(2) * hit.position_error, (arrives > T(0)) == (goes > T(0)),
+                       contacts.is_here(hit.distance, arrives));
+        pending_.push_back({hit.position, direction, throughput, medium, path.depth + 1, contacts, hit.surface});
     }
 
     const Scene<T, F>& scene_;

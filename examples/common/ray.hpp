@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/differential/curvature.hpp"
+#include "nephroid/transport/contacts.hpp"
 #include "nephroid/transport/hit.hpp"
 #include "nephroid/vector/glm.hpp"
 
@@ -97,6 +98,35 @@ struct Candidate {
     wide_t<T> u = 0, v = 0;      ///< barycentric coordinates, for triangles
     std::uint32_t primitive = 0; ///< which one of the shape's
 };
+
+/// Nothing is left out, and of surfaces that touch any may be met first: for rays that end where they hit.
+struct AnyOrder {
+    static constexpr bool matters = false;
+};
+
+/// What a search for the nearest hit leaves out, and which of two that are equally far comes first.
+///
+/// @tparam Rank  rank(material, leaves): the less, the earlier; `leaves` says whether the ray comes from the inside
+template <class T, class Rank>
+struct ContactOrder {
+    static constexpr bool matters = true;
+
+    const Contacts<T>& contacts;
+    Rank rank;
+    std::uint64_t part = 0; ///< the upper half of primitives' numbers
+
+    [[nodiscard]] bool leaves_out(std::uint32_t primitive, const wide_t<T>& distance, const wide_t<T>& cosine) const {
+        return contacts.leave_out(part << 32 | primitive, T(distance), T(cosine));
+    }
+};
+
+/// How far from one another hits may be that count as equally far, for a ray at right angles.
+template <class T>
+[[nodiscard]] wide_t<T> contact_height(const Ray<T>& ray, const wide_t<T>& distance) {
+    using wide = wide_t<T>;
+    const auto size = [](const Vec3<T>& v) { return abs(wide(v.x)) + abs(wide(v.y)) + abs(wide(v.z)); };
+    return wide(8 * std::numeric_limits<T>::epsilon()) * (size(ray.origin) + abs(distance) * size(ray.direction));
+}
 
 template <class T>
 using SurfaceCurvature = AnyCurvature<Flat, ShapeOperator<Vec3<T>>, InterpolatedCurvature<Vec3<T>>>;

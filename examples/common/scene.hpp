@@ -101,35 +101,17 @@ public:
 
     [[nodiscard]] std::optional<Hit<T>> intersect(const Vec3<T>& origin, const Vec3<T>& direction, T t_min,
                                                   T t_max) const {
-        const Ray<T> ray{origin, direction, t_min, t_max};
-        std::optional<Candidate<T>> best;
-        std::size_t best_part = 0;
-        wide_t<T> nearest(t_max);
-        const auto try_part = [&](std::size_t i) {
-            if (auto found =
-                    std::visit([&](const auto& shape) { return shape.nearest(ray, nearest); }, parts_[i].shape)) {
-                best = found;
-                best_part = i;
-                nearest = found->distance;
-            }
-        };
-        for (const std::size_t i : unbounded_)
-            try_part(i);
-        visit_bounded({origin, direction, t_min, T(nearest)}, [&](std::size_t i, T) {
-            try_part(i);
-            return T(nearest);
-        });
-        if (!best)
-            return std::nullopt;
+        return nearest_hit({origin, direction, t_min, t_max}, AnyOrder());
+    }
 
-        const Part& part = parts_[best_part];
-        const auto fill_in = [&](const auto& shape) {
-            Hit<T> hit = shape.hit(ray, *best);
-            if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh<T>>)
-                hit.surface = part.material;
-            return hit;
+    /// Without what the ray has just left; surfaces that touch come in the order that light passes them.
+    [[nodiscard]] std::optional<Hit<T>> intersect(const Vec3<T>& origin, const Vec3<T>& direction, T t_min, T t_max,
+                                                  const Contacts<T>& contacts) const {
+        const auto rank = [this](std::size_t material, bool leaves) {
+            const bool is_glass = materials_[material].surface == Surface::dielectric;
+            return is_glass ? (leaves ? 0 : 2) : 1;
         };
-        return std::optional<Hit<T>>(std::in_place, InPlace{[&] { return std::visit(fill_in, part.shape); }});
+        return nearest_hit({origin, direction, t_min, t_max}, ContactOrder<T, decltype(rank)>{contacts, rank});
     }
 
     /// Whether anything lies between: faster than `intersect`.
@@ -219,6 +201,115 @@ public:
     }
 
 private:
+    /// @tparam Order  AnyOrder or a ContactOrder
+    template <class Order>
+    [[nodiscard]] std::optional<Hit<T>> nearest_hit(const Ray<T>& ray, Order order) const {
+        std::optional<Candidate<T>> best;
+        std::size_t best_part = 0;
+        wide_t<T> nearest(ray.t_max);
+        const auto take = [&](std::size_t i, const Candidate<T>& found) {
+            best = found;
+            best_part = i;
+            nearest = found.distance;
+            if constexpr (Order::matters)
+                nearest = (std::min)(nearest_so_far(ray, nearest), wide_t<T>(ray.t_max));
+        };
+        const auto try_part = [&](std::size_t i) {
+            if constexpr (Order::matters) {
+                order.part = i;
+                if (const auto found = nearest_of(i, ray, nearest, order))
+                    if (!best || comes_first(ray, i, *found, best_part, *best, order))
+                        take(i, *found);
+            } else {
+                if (const auto found =
+                        std::visit([&](const auto& shape) { return shape.nearest(ray, nearest); }, parts_[i].shape))
+                    take(i, *found);
+            }
+        };
+        for (const std::size_t i : unbounded_)
+            try_part(i);
+        visit_bounded({ray.origin, ray.direction, ray.t_min, T(nearest)}, [&](std::size_t i, T) {
+            try_part(i);
+            return T(nearest);
+        });
+        if (!best)
+            return std::nullopt;
+
+        const Part& part = parts_[best_part];
+        const auto fill_in = [&](const auto& shape) {
+            Hit<T> hit = shape.hit(ray, *best);
+            if constexpr (!std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh<T>>)
+                hit.surface = part.material;
+            hit.primitive = primitive_of(best_part, *best);
+            return hit;
+        };
+        return std::optional<Hit<T>>(std::in_place, InPlace{[&] { return std::visit(fill_in, part.shape); }});
+    }
+
+    /// Two hits beyond each other by no more than this may touch.
+    [[nodiscard]] static wide_t<T> nearest_so_far(const Ray<T>& ray, const wide_t<T>& distance) {
+        return distance + flattest * contact_height(ray, distance);
+    }
+    static constexpr wide_t<T> flattest = 16; ///< flatter rays tell distances less well than counts here
+
+    [[nodiscard]] static std::uint64_t primitive_of(std::size_t part, const Candidate<T>& candidate) {
+        return std::uint64_t(part) << 32 | candidate.primitive;
+    }
+
+    /// A part's nearest hit of those that are not left out. Shapes that are no meshes have two at most that may be.
+    template <class Order>
+    [[nodiscard]] std::optional<Candidate<T>> nearest_of(std::size_t part, Ray<T> ray, const wide_t<T>& t_max,
+                                                         const Order& order) const {
+        return std::visit(
+            [&](const auto& shape) -> std::optional<Candidate<T>> {
+                if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh<T>>) {
+                    return shape.nearest(ray, t_max, order);
+                } else {
+                    auto found = shape.nearest(ray, t_max);
+                    while (found && order.leaves_out(0, found->distance, cosine_at(shape, ray, *found))) {
+                        const T here = T(found->distance); // beyond it, which rounding may have put before it
+                        ray.t_min = here + (T(2) * std::numeric_limits<T>::epsilon() * abs(here) +
+                                            (std::numeric_limits<T>::min)());
+                        found = shape.nearest(ray, t_max);
+                    }
+                    return found;
+                }
+            },
+            parts_[part].shape);
+    }
+
+    template <class S>
+    [[nodiscard]] static wide_t<T> cosine_at(const S& shape, const Ray<T>& ray, const Candidate<T>& found) {
+        if constexpr (std::is_same_v<S, TriangleMesh<T>>)
+            return shape.cosine(ray, found.primitive);
+        else
+            return wide_t<T>(dot(ray.direction, shape.hit(ray, found).geometric_normal));
+    }
+
+    /// Whether a hit comes before the best one so far, on another part.
+    template <class Order>
+    [[nodiscard]] bool comes_first(const Ray<T>& ray, std::size_t part, const Candidate<T>& found,
+                                   std::size_t best_part, const Candidate<T>& best, const Order& order) const {
+        const bool is_nearer = found.distance < best.distance;
+        const auto slope_of = [&](std::size_t i, const Candidate<T>& candidate) {
+            return std::visit([&](const auto& shape) { return cosine_at(shape, ray, candidate); }, parts_[i].shape);
+        };
+        if (abs(found.distance - best.distance) > flattest * contact_height(ray, found.distance))
+            return is_nearer;
+        const wide_t<T> slope = slope_of(part, found);
+        const std::size_t mine = material_of(part, found), others = material_of(best_part, best);
+        if (mine == others || abs(found.distance - best.distance) * (std::max)(wide_t<T>(abs(slope)), 1 / flattest) >
+                                  contact_height(ray, found.distance))
+            return is_nearer;
+        const int rank = order.rank(mine, slope > 0), other = order.rank(others, slope_of(best_part, best) > 0);
+        return rank < other || (rank == other && is_nearer);
+    }
+
+    [[nodiscard]] std::size_t material_of(std::size_t part, const Candidate<T>& candidate) const {
+        const auto* mesh = std::get_if<TriangleMesh<T>>(&parts_[part].shape);
+        return mesh ? mesh->material(candidate.primitive) : parts_[part].material;
+    }
+
     /// Visits bounded parts as `Bvh::traverse` does leaves. A single one, a mesh perhaps with a tree of its own, needs
     /// no tree about it.
     template <class Visit>

@@ -66,11 +66,25 @@ public:
     }
 
     [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
-        return search(ray, t_max, false);
+        return search(ray, t_max, false, AnyOrder());
+    }
+
+    /// The nearest of those that are not left out; of several that touch, the first.
+    template <class Order>
+    [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max, const Order& order) const {
+        return search(ray, t_max, false, order);
     }
 
     /// Any hit, not the nearest one.
-    [[nodiscard]] bool occludes(const Ray<T>& ray) const { return search(ray, wide(ray.t_max), true).has_value(); }
+    [[nodiscard]] bool occludes(const Ray<T>& ray) const {
+        return search(ray, wide(ray.t_max), true, AnyOrder()).has_value();
+    }
+
+    /// Between a ray of unit length and a triangle's normal.
+    [[nodiscard]] wide cosine(const Ray<T>& ray, std::uint32_t triangle) const {
+        const auto [p0, p1, p2] = corners(triangle);
+        return dot(widen(ray.direction), normalize(wide_cross<T>(widen(p1) - widen(p0), widen(p2) - widen(p0))));
+    }
 
     /// `surface` is the triangle's material. Every hit is written once, where it is returned: what is put together in
     /// parts and then copied waits for its parts.
@@ -145,20 +159,50 @@ private:
         return block;
     }
 
-    [[nodiscard]] std::optional<Candidate<T>> search(const Ray<T>& ray, wide t_max, bool any) const {
+    template <class Order>
+    [[nodiscard]] std::optional<Candidate<T>> search(const Ray<T>& ray, wide t_max, bool any,
+                                                     const Order& order) const {
         std::optional<Candidate<T>> best;
         const auto visit = [&](std::uint32_t leaf, T nearest) {
             const Block& block = blocks_[leaf];
             for (unsigned passes = filter(block, ray, nearest); passes != 0; passes &= passes - 1)
                 if (const auto found = decide(block, std::size_t(std::countr_zero(passes)), ray, t_max)) {
-                    best = found;
-                    t_max = found->distance;
+                    if constexpr (Order::matters) {
+                        if (!comes_first(ray, *found, best, order))
+                            continue;
+                        best = found;
+                        t_max = (std::min)(t_max, found->distance + most_lean * contact_height(ray, found->distance));
+                    } else {
+                        best = found;
+                        t_max = found->distance;
+                    }
                 }
             return best && any ? -std::numeric_limits<T>::infinity() : T(t_max);
         };
         bvh_.traverse({ray.origin, ray.direction, ray.t_min, T(t_max)}, visit,
                       [this](std::uint32_t leaf) { prefetch(&blocks_[leaf]); });
         return best;
+    }
+
+    static constexpr wide most_lean = 16; ///< flatter rays tell distances less well than counts here
+
+    /// Whether a hit is to be met, and before the best one so far. Hits on one material come in the order of their
+    /// distances: a ray may come through the edge of a body.
+    template <class Order>
+    [[nodiscard]] bool comes_first(const Ray<T>& ray, const Candidate<T>& found,
+                                   const std::optional<Candidate<T>>& best, const Order& order) const {
+        const wide slope = cosine(ray, found.primitive);
+        if (order.leaves_out(found.primitive, found.distance, slope))
+            return false;
+        if (!best)
+            return true;
+        const bool is_nearer = found.distance < best->distance;
+        const std::uint32_t mine = material(found.primitive), others = material(best->primitive);
+        if (mine == others || abs(found.distance - best->distance) * (std::max)(wide(abs(slope)), 1 / most_lean) >
+                                  contact_height(ray, found.distance))
+            return is_nearer;
+        const int rank = order.rank(mine, slope > 0), other = order.rank(others, cosine(ray, best->primitive) > 0);
+        return rank < other || (rank == other && is_nearer);
     }
 
     using Lanes = typename RegisterOf<T>::type;

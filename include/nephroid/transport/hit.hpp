@@ -4,6 +4,8 @@
 
 #include "nephroid/differential/curvature.hpp"
 
+#include <cstdint>
+
 namespace nephroid {
 
 /// A hit, ready to fill in. Any struct with these member names will do as well; `position` may be left out (it is
@@ -23,15 +25,16 @@ namespace nephroid {
 /// ```
 template <Vector3 V, Curvature<V> C>
 struct SurfaceHit {
-    scalar_t<V> distance;       ///< along the unit direction, world units
-    V position;                 ///< on the surface
-    V geometric_normal;         ///< unit, of the surface that is really hit; its side says where a ray comes from
-    V shading_normal;           ///< unit, on the geometric normal's side; reflection and refraction use this one
-    C curvature;                ///< dn = curvature(dx), for the shading normal as given (the walk flips both)
-    scalar_t<V> position_error; ///< bound on the distance from `position` to the surface, world units, >= 0
-    std::size_t surface = 0;    ///< the smooth surface that was hit: an object, not its material or one of
-                                ///< its triangles. Photons that met the same ones are taken for neighbours
-                                ///< (transport/trail.hpp)
+    scalar_t<V> distance;        ///< along the unit direction, world units
+    V position;                  ///< on the surface
+    V geometric_normal;          ///< unit, of the surface that is really hit; its side says where a ray comes from
+    V shading_normal;            ///< unit, on the geometric normal's side; reflection and refraction use this one
+    C curvature;                 ///< dn = curvature(dx), for the shading normal as given (the walk flips both)
+    scalar_t<V> position_error;  ///< bound on the distance from `position` to the surface, world units, >= 0
+    std::size_t surface = 0;     ///< the smooth surface that was hit: an object, not its material or one of
+                                 ///< its triangles. Photons that met the same ones are taken for neighbours
+                                 ///< (transport/trail.hpp)
+    std::uint64_t primitive = 0; ///< what a ray may leave out (transport/contacts.hpp); not needed elsewhere
 };
 
 template <class H, class V>

@@ -6,12 +6,15 @@
 #include "nephroid/emission/photon.hpp"
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/bend.hpp"
+#include "nephroid/transport/contacts.hpp"
 #include "nephroid/transport/deposit.hpp"
 #include "nephroid/transport/ray_start.hpp"
 #include "nephroid/transport/sound_values.hpp"
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 namespace nephroid::detail {
@@ -23,6 +26,11 @@ public:
     using T = scalar_t<V>;
     using H = hit_t<S, V>;
     using Medium = typename medium_of<S, V>::type;
+    using Contact = typename contact_of<S, V>::type;
+    static constexpr bool surfaces_may_touch = LetsSurfacesTouch<S, V>;
+    static_assert(!surfaces_may_touch || !HasTracerEpsilon<S, V>,
+                  "nephroid: a scene that takes Contacts must have no tracer_epsilon, but find what lies at its rays' "
+                  "start (transport/contacts.hpp)");
 
     PhotonSteps(const S& scene, Photon<V, F, N>& photon, Statistics& account)
         : scene_(scene), account_(account), photon_(photon), emitted_power_(power(photon.flux)) {}
@@ -41,10 +49,25 @@ public:
         return false;
     }
 
+    /// The first surface on the photon's way.
+    [[nodiscard]] auto next_hit() const {
+        constexpr T endless = std::numeric_limits<T>::infinity();
+        if constexpr (surfaces_may_touch)
+            return scene_.intersect(photon_.position, photon_.direction, contact_.surfaces.t_min(), endless,
+                                    contact_.surfaces);
+        else
+            return scene_.intersect(photon_.position, photon_.direction, T(0), endless);
+    }
+
     /// Carries the photon and its tangents to a hit.
     [[nodiscard]] bool fly_to(const H& hit) {
-        const T distance = hit.distance;
+        T distance = hit.distance;
         const V normal = hit.geometric_normal;
+        if constexpr (surfaces_may_touch) {
+            begins_at_hit_ = contact_.surfaces.is_here(distance, dot(photon_.direction, normal));
+            if (begins_at_hit_)
+                distance = (std::max)(distance, T(0));
+        }
         if (!(distance >= T(0)) || !is_unit(normal))
             return end(Fate::invalid);
         const auto flight = transfer(photon_.direction, distance + ahead_, normal);
@@ -59,7 +82,8 @@ public:
         else
             photon_.position = photon_.position + distance * photon_.direction;
         const T flown = distance - skipped_by_tracer<V>(scene_);
-        begins_at_hit_ = flown * abs(dot(photon_.direction, normal)) <= T(2) * ray_clearance(hit, photon_.position);
+        if (!contact_.begins_on_surface())
+            begins_at_hit_ = flown * abs(dot(photon_.direction, normal)) <= T(2) * ray_clearance(hit, photon_.position);
         if constexpr (Absorbs<S, V>)
             return weigh(scene_.transmittance(medium_, flown));
         else
@@ -134,8 +158,16 @@ public:
     }
 
     /// Moves the origin of the next ray off the surface, to the side that it leaves on.
-    void leave(const H& hit) {
-        if constexpr (SpawnsRays<S, V>) {
+    ///
+    /// @param passed  whether it goes on through the surface
+    void leave(const H& hit, [[maybe_unused]] bool passed) {
+        if constexpr (surfaces_may_touch) {
+            contact_.surfaces.leave(hit.primitive, dot(photon_.direction, V(hit.geometric_normal)),
+                                    ray_clearance(hit, photon_.position), passed, begins_at_hit_);
+            if constexpr (requires { hit.surface; })
+                contact_.left = std::uint64_t(hit.surface);
+            begin_ray(T(0));
+        } else if constexpr (SpawnsRays<S, V>) {
             photon_.position = scene_.spawn(hit, photon_.direction);
             begin_ray(T(0));
         } else {
@@ -168,6 +200,28 @@ public:
         photon_ = photon;
         medium_ = medium;
     }
+    /// On another surface, where a way waited.
+    void become(const Photon<V, F, N>& photon, const Medium& medium, const Contact& contact, bool begins_at_hit) {
+        become(photon, medium);
+        contact_ = contact;
+        begins_at_hit_ = begins_at_hit;
+    }
+    [[nodiscard]] const Contact& contact() const { return contact_; }
+
+    /// Whether the hit is a triangle beside the one that the photon left, of the same surface: it lies on their edge.
+    [[nodiscard]] bool is_on_edge(const H& hit) {
+        if constexpr (surfaces_may_touch && requires { hit.surface; }) {
+            const T cosine = dot(photon_.direction, V(hit.geometric_normal));
+            const bool is_beside = contact_.surfaces.is_here(hit.distance, cosine) &&
+                                   std::uint64_t(hit.surface) == contact_.left &&
+                                   (cosine > T(0)) == contact_.surfaces.leaves_along_normal();
+            if (is_beside)
+                contact_.surfaces.leave_beside(hit.primitive);
+            return is_beside;
+        } else {
+            return false;
+        }
+    }
     /// The photon carries this much from here on: whoever calls this books the rest.
     void carry(const F& flux) { photon_.flux = flux; }
 
@@ -198,6 +252,7 @@ private:
     double emitted_power_;
     T ahead_ = T(0); ///< how far ahead of the surface that the photon left its ray began
     bool begins_at_hit_ = false;
+    [[no_unique_address]] Contact contact_{};
     [[no_unique_address]] Medium medium_{};
 };
 

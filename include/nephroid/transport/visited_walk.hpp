@@ -58,7 +58,9 @@ private:
         if (!all_finite(now.position) || !all_finite(now.direction))
             return steps_.end(Fate::invalid);
         ++account_.rays;
-        const auto hit = scene_.intersect(now.position, now.direction, T(0), std::numeric_limits<T>::infinity());
+        const auto hit = steps_.next_hit();
+        if (hit && steps_.is_on_edge(*hit))
+            return true;
         if constexpr (tells_flights) {
             const T distance = hit ? T((*hit).distance) : std::numeric_limits<T>::infinity();
             const std::optional<V> end_normal = hit ? std::optional<V>(steps_.facing_normal(*hit)) : std::nullopt;
@@ -83,7 +85,8 @@ private:
         if (steps_.began_here()) {
             if (path_.is_direct() && (is_opaque || !steps_.is_in_front_of(hit)) && lamp_surfaces_ < most_lamp_surfaces)
                 return leave_lamp(hit);
-            ++account_.hits_at_start;
+            if constexpr (!LetsSurfacesTouch<S, V>)
+                ++account_.hits_at_start;
         }
         if (path_.is_direct() && is_opaque)
             ++account_.opaque_first;
@@ -100,11 +103,12 @@ private:
         if (!steps_.bend(hit, scattering))
             return false;
         ++path_.specular_events;
-        tell_of(hit, from_front, steps_.is_in_front_of(hit) == from_front);
+        const bool passed = steps_.is_in_front_of(hit) == from_front;
+        tell_of(hit, from_front, passed);
         if constexpr (!all_ways)
             if (path_.specular_events >= limits_.roulette_after && !steps_.survives_roulette(sampler_))
                 return false;
-        leave(hit);
+        leave(hit, passed);
         return true;
     }
 
@@ -126,6 +130,7 @@ private:
 
     /// From a diffuse surface, as the visitor says.
     [[nodiscard]] bool go_on(const H& hit, const Photon<V, F, N>& onwards) {
+        const bool from_front = steps_.is_in_front_of(hit);
         const double arrived = steps_.power(steps_.photon().flux), carried = steps_.power(onwards.flux);
         if (!isfinite(carried))
             return steps_.end(Fate::invalid);
@@ -134,7 +139,7 @@ private:
         if (path_.bounces == limits_.bounces)
             return steps_.end(Fate::terminated);
         ++path_.bounces;
-        leave(hit);
+        leave(hit, steps_.is_in_front_of(hit) == from_front);
         return true;
     }
 
@@ -158,7 +163,8 @@ private:
             steps_.carry(arrived * ways[i].weight);
             if (!steps_.carries_enough(limits_.least_share))
                 continue;
-            if (followed_ < limits_.branches && waiting_.push({steps_.photon(), steps_.medium(), path_, hit, ways[i]}))
+            if (followed_ < limits_.branches && waiting_.push({steps_.photon(), steps_.medium(), steps_.contact(),
+                                                               steps_.began_here(), path_, hit, ways[i]}))
                 ++followed_;
             else
                 (void)steps_.end(Fate::terminated);
@@ -173,7 +179,7 @@ private:
             if (waiting_.empty())
                 return false;
             const auto way = waiting_.pop();
-            steps_.become(way.photon, way.medium);
+            steps_.become(way.photon, way.medium, way.contact, way.begins_at_hit);
             path_ = way.path;
             goes_on = take<true>(way.hit, way.scattering, kept);
             return true;
@@ -185,7 +191,7 @@ private:
     /// Off the surface of the lamp itself, which stands in the scene: the photon begins on it.
     [[nodiscard]] bool leave_lamp(const H& hit) {
         ++lamp_surfaces_;
-        leave(hit);
+        leave(hit, true);
         return true;
     }
 
@@ -195,10 +201,10 @@ private:
             visitor_.meet(hit, from_front, passed);
     }
 
-    void leave(const H& hit) {
+    void leave(const H& hit, bool passed) {
         if constexpr (tells_flights) // the normal on the side that the photon leaves to
             departure_ = {steps_.photon().position, -steps_.facing_normal(hit)};
-        steps_.leave(hit);
+        steps_.leave(hit, passed);
     }
 
     const S& scene_;
