@@ -59,16 +59,17 @@ struct EyePath {
 template <class T, Flux F>
 class EyePathTracer {
 public:
-    EyePathTracer(const Scene<T, F>& scene, const Camera<T>& camera, const EyePathOptions& options,
+    EyePathTracer(const Scene<T, F>& scene, const Camera<T>& camera, const EyePathOptions& options, const Medium& start,
                   EyePaths<T, F>& result)
-        : scene_(scene), camera_(camera), options_(options), grid_(options.samples), result_(result) {}
+        : scene_(scene), camera_(camera), options_(options), start_(start), grid_(options.samples), result_(result) {}
 
     /// @param film_x, film_y  where the ray goes through the film, pixels
     /// @param first_pixel     the one that `emitted` starts with in the result
     void trace(T film_x, T film_y, std::uint32_t pixel, std::size_t first_pixel) {
         film_x_ = film_x, film_y_ = film_y;
+        passed_ = 0;
         const Ray<T> ray = camera_.ray(film_x, film_y);
-        pending_.assign(1, {ray.origin, ray.direction, grey<F>(1), {}, 0});
+        pending_.assign(1, {ray.origin, ray.direction, grey<F>(1), start_, 0});
         while (!pending_.empty()) {
             EyePath<T, F> path = pending_.back();
             pending_.pop_back();
@@ -124,7 +125,11 @@ private:
             reflect(hit, path, normal, facing, scene_.reflectance(material, hit, path.direction));
             return;
         }
-        const Interface<T> at = scene_.interface(material, hit, path.direction);
+        const Interface<T> at = scene_.interface(material, hit, path.direction, path.medium);
+        if (!at.is_real) {
+            pass(hit, path, at.beyond);
+            return;
+        }
         const T reflected = scene_.reflectance(material, at);
         if (reflected > T(0) && material.follow == Follow::both)
             reflect(hit, path, normal, facing, grey<F>(double(reflected)));
@@ -145,6 +150,19 @@ private:
         go_on(hit, path, direction, dot(direction, facing) > T(0), weight, path.medium);
     }
 
+    /// Through a surface that light does not notice.
+    void pass(const Hit<T>& hit, EyePath<T, F> path, const Medium& beyond) {
+        if (++passed_ > 1000) // in one pixel's paths: the tracer finds the same one again and again
+            return;
+        const T slope = dot(path.direction, hit.geometric_normal);
+        path.contacts.leave(hit.primitive, slope, T(2) * hit.position_error, true,
+                            path.contacts.is_here(hit.distance, slope));
+        path.origin = hit.position;
+        path.medium = beyond;
+        path.left = hit.surface;
+        pending_.push_back(path);
+    }
+
     void go_on(const Hit<T>& hit, const EyePath<T, F>& path, const Vec3<T>& direction, bool leaves, const F& weight,
                Medium medium) {
         const F throughput = path.throughput * weight;
@@ -160,9 +178,11 @@ private:
     const Scene<T, F>& scene_;
     const Camera<T>& camera_;
     const EyePathOptions& options_;
+    const Medium& start_; ///< that the camera is in
     PixelGrid grid_;
     EyePaths<T, F>& result_;
     T film_x_ = T(0), film_y_ = T(0);
+    unsigned passed_ = 0;
     std::vector<EyePath<T, F>> pending_;
 };
 
@@ -176,11 +196,12 @@ template <class T, Flux F, Executor E>
                                              const EyePathOptions& options, E&& executor) {
     constexpr std::size_t chunk = 512; // pixels
     const std::size_t pixels = camera.width() * camera.height();
+    const Medium start = scene.media_about(camera.ray(T(camera.width()) / 2, T(camera.height()) / 2).origin);
     std::vector<EyePaths<T, F>> parts((pixels + chunk - 1) / chunk);
     executor(parts.size(), [&](std::size_t part) {
         const std::size_t first = part * chunk, last = (std::min)(first + chunk, pixels);
         parts[part].emitted.resize(last - first, flux_traits<F>::zero());
-        detail::EyePathTracer<T, F> tracer(scene, camera, options, parts[part]);
+        detail::EyePathTracer<T, F> tracer(scene, camera, options, start, parts[part]);
         for (std::size_t pixel = first; pixel < last; ++pixel)
             for (unsigned k = 0; k < options.samples; ++k) {
                 const PixelOffset<T> at = pixel_sample<T>(pixel, k, options.samples, options.seed);

@@ -86,6 +86,22 @@ template <class T, Flux F>
     return lamps;
 }
 
+/// Lets the photons of lamps that lie under water, or in glass, begin there.
+template <class T, Flux F>
+void begin_in_media(Scene<T, F>& scene, const Lamps<T, F>& lamps) {
+    for (const Lamp<T, F>& lamp : lamps.lamps)
+        if (lamp.kind != Lamp<T, F>::Kind::directional)
+            scene.begin_in_media({lamp.position, lamp.position}, lamp.position);
+    for (const AreaLamp<T, F>& lamp : lamps.areas) {
+        Box<T> box;
+        for (const auto& triangle : lamp.triangles)
+            for (const Vec3<T>& corner : triangle)
+                box.add(corner);
+        const auto& [a, b, c] = lamp.triangles.front();
+        scene.begin_in_media(box, T(1) / T(3) * (a + b + c));
+    }
+}
+
 namespace detail {
 /// A beam's patch, moved back against the beam until it is in front of a whole box: what stands between the lamp and
 /// the specular surfaces casts its shadow on them.

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <concepts>
+#include <cstdint>
 
 namespace nephroid::examples {
 
@@ -53,10 +54,11 @@ struct Material {
     F emission = flux_traits<F>::zero(); ///< radiance seen on the side of the normal
     bool emits_on_both_sides = false;
 
-    double ior = 1.5;    ///< of the inside, which the normal points away from; the outside is air
+    double ior = 1.5;    ///< of the inside, which the normal points away from
     bool fresnel = true; ///< whether the interface reflects; without it light is refracted whole
     Follow follow = Follow::both;
     F absorption = flux_traits<F>::zero(); ///< of the inside, 1 / length: Beer's law
+    std::int32_t priority = 0;             ///< where insides overlap, the higher one is there
 
     F eta = grey<F>(1), k = flux_traits<F>::zero();
 

@@ -55,6 +55,9 @@ struct Box {
     Vec3<T> max{-std::numeric_limits<T>::infinity()};
 
     [[nodiscard]] bool is_empty() const { return !(min.x <= max.x && min.y <= max.y && min.z <= max.z); }
+    [[nodiscard]] bool contains(const Vec3<T>& p) const {
+        return p.x >= min.x && p.y >= min.y && p.z >= min.z && p.x <= max.x && p.y <= max.y && p.z <= max.z;
+    }
     [[nodiscard]] bool is_finite() const { return all_finite(min) && all_finite(max); }
 
     void add(const Vec3<T>& p) {

@@ -7,6 +7,7 @@
 #include "common/shapes.hpp"
 
 #include "nephroid/emission/target.hpp"
+#include "nephroid/transport/media.hpp"
 #include "nephroid/transport/scene.hpp"
 #include "nephroid/vector/in_place.hpp"
 
@@ -18,10 +19,8 @@
 
 namespace nephroid::examples {
 
-/// What a ray flies through: the inside of a material, or air. Media do not nest: what lies in water leaves into air.
-struct Medium {
-    std::int32_t material = -1; ///< -1 is air
-};
+/// What a ray flies through: the insides of materials, by their indices.
+using Medium = Media;
 
 /// A scene's answer to `scatter`.
 template <class T, Flux F>
@@ -37,11 +36,13 @@ template <class T>
 struct Interface {
     T eta;          ///< n₁/n₂ for this ray
     T cos_incident; ///< with the shading normal, where that faces the ray, else with the geometric one
-    bool entering;  ///< into what the normal points away from
+    Medium beyond;  ///< where a refracted ray goes
+    bool is_real;   ///< else the same medium is on both sides, and light does not notice
 };
 
 /// Shapes and materials. A surface's inside is where its normal points away from, so a sheet of water over a basin does
-/// not need to be closed: a ray that enters it is in water until it leaves it, or ends.
+/// not need to be closed: a ray that enters it is in water until it leaves it, or ends. Where insides overlap, the
+/// material of the higher priority is there, or of those that have the same the one that a ray entered last.
 ///
 /// @tparam T  float or double
 /// @tparam F  flux: T, or `glm::vec<3, T>` for red, green and blue
@@ -107,9 +108,10 @@ public:
     /// Without what the ray has just left; surfaces that touch come in the order that light passes them.
     [[nodiscard]] std::optional<Hit<T>> intersect(const Vec3<T>& origin, const Vec3<T>& direction, T t_min, T t_max,
                                                   const Contacts<T>& contacts) const {
+        // Into the next glass before out of the last, so that there is no air between; out of that before the table.
         const auto rank = [this](std::size_t material, bool leaves) {
             const bool is_glass = materials_[material].surface == Surface::dielectric;
-            return is_glass ? (leaves ? 0 : 2) : 1;
+            return is_glass ? (leaves ? 1 : 0) : 2;
         };
         return nearest_hit({origin, direction, t_min, t_max}, ContactOrder<T, decltype(rank)>{contacts, rank});
     }
@@ -137,10 +139,18 @@ public:
         return found;
     }
 
-    /// @param direction  that the photon flies in, unit
-    /// @param sampler    drawn from once, and only where a dielectric both reflects and refracts and both are followed
+    /// For rays that do not know what they fly through: nothing is inside of anything else.
     template <class Sampler>
     [[nodiscard]] Bounce<T, F> scatter(const Hit<T>& hit, const Vec3<T>& direction, Sampler& sampler) const {
+        return scatter(hit, direction, sampler, Medium{});
+    }
+
+    /// @param direction  that the photon flies in, unit
+    /// @param sampler    drawn from once, and only where a dielectric both reflects and refracts and both are followed
+    /// @param medium     that the photon comes through
+    template <class Sampler>
+    [[nodiscard]] Bounce<T, F> scatter(const Hit<T>& hit, const Vec3<T>& direction, Sampler& sampler,
+                                       const Medium& medium) const {
         const Material<F>& m = material(hit);
         switch (m.surface) {
         case Surface::diffuse:
@@ -154,7 +164,9 @@ public:
             return {Event::absorb};
         }
 
-        const Interface<T> at = interface(m, hit, direction);
+        const Interface<T> at = interface(m, hit, direction, medium);
+        if (!at.is_real)
+            return {Event::pass, grey<F>(1), T(1), at.beyond};
         const T reflected = reflectance(m, at);
         if (m.follow == Follow::refraction)
             return reflected < T(1) ? refracted(hit, at, T(1) - reflected) : Bounce<T, F>{};
@@ -163,11 +175,13 @@ public:
         return refracted(hit, at, T(1));
     }
 
-    /// How a ray meets a dielectric.
-    [[nodiscard]] Interface<T> interface(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction) const {
-        const T geometric = -dot(direction, hit.geometric_normal);
-        const bool entering = geometric > T(0);
-        return {entering ? T(1 / m.ior) : T(m.ior), cosine(hit, direction), entering};
+    /// How a ray that comes through a medium meets a dielectric.
+    [[nodiscard]] Interface<T> interface(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
+                                         const Medium& medium) const {
+        const bool enters = dot(direction, hit.geometric_normal) < T(0);
+        const auto surface = medium.at_surface_of(static_cast<std::int32_t>(hit.surface), m.priority, enters);
+        return {T(index_of(surface.before) / index_of(surface.after)), cosine(hit, direction), surface.beyond,
+                surface.is_real()};
     }
 
     /// The share of the light that a dielectric reflects: without Fresnel all or nothing.
@@ -189,15 +203,60 @@ public:
     ///
     /// @param share  of the light that the ray carries
     [[nodiscard]] Bounce<T, F> refracted(const Hit<T>& hit, const Interface<T>& at, T share) const {
-        return {Event::refract, material(hit).color * grey<F>(double(share)), at.eta,
-                Medium{at.entering ? static_cast<std::int32_t>(hit.surface) : -1}};
+        return {Event::refract, material(hit).color * grey<F>(double(share)), at.eta, at.beyond};
     }
 
     /// What is left of the light after a flight through a medium.
     [[nodiscard]] F transmittance(const Medium& through, T distance) const {
-        if (through.material < 0)
+        if (through.here() < 0)
             return grey<F>(1);
-        return beer(materials_[static_cast<std::size_t>(through.material)].absorption, distance);
+        return beer(materials_[static_cast<std::size_t>(through.here())].absorption, distance);
+    }
+
+    /// What a place lies in: rays to both sides count the surfaces that they come out of. A sheet of water over a basin
+    /// is found by the one of them that goes up.
+    [[nodiscard]] Medium media_about(const Vec3<T>& place) const {
+        Medium media;
+        for (const T side : {T(1), T(-1)}) {
+            const Vec3<T> direction = side * normalize(Vec3<T>(T(0.17), T(0.93), T(0.31)));
+            std::vector<int> comes_out(materials_.size(), 0);
+            std::vector<std::size_t> inside; // the innermost first
+            Vec3<T> origin = place;
+            Contacts<T> contacts;
+            for (int crossed = 0; crossed < 1000; ++crossed) {
+                const auto hit =
+                    intersect(origin, direction, contacts.t_min(), std::numeric_limits<T>::infinity(), contacts);
+                if (!hit)
+                    break;
+                const T slope = dot(direction, hit->geometric_normal);
+                if (material(*hit).surface == Surface::dielectric) {
+                    int& count = comes_out[hit->surface];
+                    count += slope > T(0) ? 1 : -1;
+                    if (count == 1)
+                        inside.push_back(hit->surface);
+                }
+                contacts.leave(hit->primitive, slope, T(2) * hit->position_error, true,
+                               contacts.is_here(hit->distance, slope));
+                origin = hit->position;
+            }
+            for (auto i = inside.rbegin(); i != inside.rend(); ++i)
+                if (const auto number = static_cast<std::int32_t>(*i); comes_out[*i] > 0 && !media.has(number))
+                    media.enter(number, materials_[*i].priority);
+        }
+        return media;
+    }
+
+    /// Photons from within the box begin in the media about a place in it: for lamps.
+    void begin_in_media(const Box<T>& box, const Vec3<T>& place) {
+        if (const Medium media = media_about(place); media.here() != Medium::none)
+            lamp_media_.emplace_back(box.padded(), media);
+    }
+    /// Of a photon at a lamp.
+    [[nodiscard]] Medium medium_at(const Vec3<T>& place) const {
+        for (const auto& [box, media] : lamp_media_)
+            if (box.contains(place))
+                return media;
+        return {};
     }
 
 private:
@@ -321,6 +380,10 @@ private:
                           [&](std::uint32_t leaf, T t_max) { return visit(bounded_[bvh_.leaf(leaf).front()], t_max); });
     }
 
+    [[nodiscard]] double index_of(std::int32_t medium) const {
+        return medium < 0 ? 1 : materials_[static_cast<std::size_t>(medium)].ior;
+    }
+
     /// Between the ray and the shading normal; where that one faces away, the geometric one.
     [[nodiscard]] static T cosine(const Hit<T>& hit, const Vec3<T>& direction) {
         const T geometric = dot(direction, hit.geometric_normal), shading = dot(direction, hit.shading_normal);
@@ -367,6 +430,7 @@ private:
     Bvh<T> bvh_;                                   ///< over the bounded ones
     bool has_specular_ = false;
     std::vector<Vec3<T>> specular_points_;
+    std::vector<std::pair<Box<T>, Medium>> lamp_media_; ///< of those lamps that are in any
 };
 
 } // namespace nephroid::examples

@@ -107,6 +107,7 @@ template <class T, Flux F = Vec3<T>>
     for (const LightDescription& light : description.lights)
         result.lamps.lamps.push_back(detail::lamp_from<T, F>(light));
     result.lamps.areas = area_lamps(result.scene);
+    begin_in_media(result.scene, result.lamps);
     return result;
 }
 

@@ -38,7 +38,7 @@ struct TouchingSheets : SheetScene<float> {
             if (!(distance > t_min && distance < t_max) || contacts.leave_out(i, float(distance), float(slope)))
                 continue;
             const bool is_glass = sheets[i].event == Event::refract;
-            const int rank = is_glass ? (slope > 0 ? 0 : 2) : 1;
+            const int rank = is_glass ? (slope > 0 ? 1 : 0) : 2;
             const double apart = nearest ? (distance - double(nearest->distance)) * std::abs(slope) : -1;
             if (apart > 1e-5 || (std::abs(apart) <= 1e-5 && rank >= nearest_rank))
                 continue;
@@ -106,7 +106,7 @@ TEST_CASE("contacts: light comes through water and glass onto the table below th
         std::optional<Deposit<V, float, 2>> deposit;
         const V direction = tilted.ray();
         CAPTURE(i);
-        CHECK(surfaces_of(scene, tilted.at(4), direction, &deposit) == std::vector<std::size_t>{0, 3, 2, 4, 1});
+        CHECK(surfaces_of(scene, tilted.at(4), direction, &deposit) == std::vector<std::size_t>{0, 2, 3, 4, 1});
         REQUIRE(deposit);
         CHECK(length(V(deposit->direction - direction)) <= 1e-5f); // as it was above: the sheets are parallel
     }
@@ -123,8 +123,7 @@ TEST_CASE("contacts: a table with its normal down and glass on it is met after t
                         {tilted.at(1), tilted.up, Event::refract, 1, 1, 1.5f}};
         CAPTURE(i);
         CHECK(surfaces_of(scene, tilted.at(4), tilted.ray()) == std::vector<std::size_t>{2, 1, 0});
-        // From below, where the table hides the glass.
-        CHECK(surfaces_of(scene, tilted.at(-4), -tilted.ray()).empty()); // Fate::direct
+        CHECK(surfaces_of(scene, tilted.at(-4), -tilted.ray()) == std::vector<std::size_t>{1, 0}); // from below
     }
 }
 

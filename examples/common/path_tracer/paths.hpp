@@ -63,7 +63,10 @@ private:
     [[nodiscard]] Medium medium_before(const Hit<double>& hit, const Vec& direction) const {
         const bool from_inside = dot(direction, hit.geometric_normal) > 0;
         const bool is_glass = scene_.material(hit).surface == Surface::dielectric;
-        return from_inside && is_glass ? Medium{static_cast<std::int32_t>(hit.surface)} : Medium{};
+        Medium medium;
+        if (from_inside && is_glass)
+            medium.enter(static_cast<std::int32_t>(hit.surface));
+        return medium;
     }
 
     [[nodiscard]] double emitted(const Ray<double>& ray, const Medium& medium) const {

@@ -18,8 +18,8 @@ namespace nephroid {
 /// with hits that have a `primitive`, a number of their triangle or shape. The ray then begins on the surface that it
 /// leaves, instead of a little off it, and t_min is a little below 0. The scene asks for each candidate, and takes the
 /// nearest of those that are not left out. Of two that are equally far, to rounding, it should take the one whose
-/// inside the ray leaves first, then opaque ones, then one whose inside it enters: so light comes out of the glass
-/// before it falls onto the table.
+/// inside the ray enters first, then one whose inside it leaves, and what is opaque last: then no air is between water
+/// and its glass (with Media, transport/media.hpp), and light comes out of the glass before it falls onto the table.
 ///
 /// ```cpp
 /// if (t > t_min && t < nearest && !contacts.leave_out(triangle, t, dot(direction, normal)))

@@ -41,6 +41,8 @@ public:
             account_.emitted.add(emitted_power_);
             if (!is_unit(photon_.direction) || has_negative_band(photon_.flux))
                 return end(Fate::invalid);
+            if constexpr (KnowsMediumOfLamps<S, V>)
+                medium_ = scene_.medium_at(photon_.position);
             begin_ray(T(0));
             return true;
         }
@@ -130,6 +132,14 @@ public:
         }
         ++account_.specular_events;
         return true;
+    }
+
+    /// Goes on through a surface that light does not notice.
+    template <class Scattering>
+    void pass(const H& hit, const Scattering& scattering) {
+        if constexpr (requires { medium_ = scattering.medium; })
+            medium_ = scattering.medium;
+        leave(hit, true);
     }
 
     /// Ends the photon with the probability that its flux has fallen to; else it carries on for those that ended.

@@ -11,6 +11,7 @@ enum class Event : unsigned char {
     reflect, ///< mirror reflection
     refract, ///< into the other medium; beyond the critical angle the walk reflects instead
     deposit, ///< the surface is diffuse (or glossy): the photon is splatted here and ends
+    pass,    ///< a false surface, such as one between two bodies of water: the photon goes on as it is, into `medium`
 };
 
 /// Normals are best left pointing out of the object, as the surface has them. A tracer that turns them to face every

@@ -47,14 +47,64 @@ template <class S, class V>
 concept RayTracer =
     Intersects<S, V> && HasDistance<hit_t<S, V>, V> && HasGeometricNormal<hit_t<S, V>, V> && KeepsRaysOffSurfaces<S, V>;
 
+/// Optional: `typename S::medium` is what a photon carries to know what it flies through (a value-initialised one
+/// where it is emitted), and `scene.transmittance(medium, distance)` the share of flux that passes. Scenes without
+/// these pay nothing. Where media touch or overlap, `medium` may be `Media` (transport/media.hpp).
+template <class S, class V>
+concept Absorbs = requires(const S& scene, const typename S::medium& medium, scalar_t<V> distance) {
+    {scene.transmittance(medium, distance)};
+};
+
+/// Optional: `scene.medium_at(position)` is the medium that a photon emitted there flies through first. A scene whose
+/// lamps may lie under water finds this out once for each lamp.
+template <class S, class V>
+concept KnowsMediumOfLamps = Absorbs<S, V> && requires(const S& scene, const V& position) {
+    { scene.medium_at(position) } -> std::convertible_to<typename S::medium>;
+};
+
+namespace detail {
+/// Nothing is flown through: what a scene without absorption carries.
+struct NoMedium {};
+
+template <class S, class V>
+struct medium_of {
+    using type = NoMedium;
+};
+template <class S, class V>
+    requires Absorbs<S, V>
+struct medium_of<S, V> {
+    using type = typename S::medium;
+};
+
+/// The scene's `scatter`, with the medium that the photon comes through where it asks for that.
+template <class S, class H, class V, class Sampler, class Medium>
+    requires requires(const S& scene, const H& hit, const V& v, Sampler& sampler, const Medium& medium) {
+        scene.scatter(hit, v, sampler, medium);
+    }
+[[nodiscard]] auto scatter_in(const Medium& medium, const S& scene, const H& hit, const V& direction,
+                              Sampler& sampler) {
+    return scene.scatter(hit, direction, sampler, medium);
+}
+template <class S, class H, class V, class Sampler, class Medium>
+    requires(!requires(const S& scene, const H& hit, const V& v, Sampler& sampler, const Medium& medium) {
+        scene.scatter(hit, v, sampler, medium);
+    })
+&&requires(const S& scene, const H& hit, const V& v, Sampler& sampler) { scene.scatter(hit, v, sampler); }
+[[nodiscard]] auto scatter_in(const Medium&, const S& scene, const H& hit, const V& direction, Sampler& sampler) {
+    return scene.scatter(hit, direction, sampler);
+}
+} // namespace detail
+
 /// `scene.scatter(hit, direction, sampler)`: what the surface does with a photon that arrives along the unit
-/// direction, a `Scattering` or a type like it. `sampler.template next<T>()` draws the numbers for its choices.
+/// direction, a `Scattering` or a type like it. `sampler.template next<T>()` draws the numbers for its choices. With a
+/// fourth parameter it is told the `medium` that the photon comes through.
 template <class S, class V, class Sampler>
-concept Scatters = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& v, Sampler& sampler) {
-    { scene.scatter(hit, v, sampler).event } -> std::convertible_to<Event>;
-    {scene.scatter(hit, v, sampler).weight};
-    requires !detail::refracts<std::remove_cvref_t<decltype(scene.scatter(hit, v, sampler))>> || requires {
-        { scene.scatter(hit, v, sampler).eta } -> std::convertible_to<scalar_t<V>>;
+concept Scatters = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& v, Sampler& sampler,
+                                               const typename detail::medium_of<S, V>::type& medium) {
+    { detail::scatter_in(medium, scene, hit, v, sampler).event } -> std::convertible_to<Event>;
+    {detail::scatter_in(medium, scene, hit, v, sampler).weight};
+    requires !detail::refracts<decltype(detail::scatter_in(medium, scene, hit, v, sampler))> || requires {
+        { detail::scatter_in(medium, scene, hit, v, sampler).eta } -> std::convertible_to<scalar_t<V>>;
     };
 };
 
@@ -95,14 +145,6 @@ template <class S, class V, class Sampler, std::size_t N = 2>
 concept Scene = RayTracer<S, V> && Scatters<S, V, Sampler> &&
     (N == 0 || Hit<hit_t<S, V>, V>)&&!detail::DrawsFromConst<S, Sampler>;
 
-/// Optional: `typename S::medium` is what a photon carries to know what it flies through (a value-initialised one
-/// where it is emitted), and `scene.transmittance(medium, distance)` the share of flux that passes. Scenes without
-/// these pay nothing.
-template <class S, class V>
-concept Absorbs = requires(const S& scene, const typename S::medium& medium, scalar_t<V> distance) {
-    {scene.transmittance(medium, distance)};
-};
-
 namespace detail {
 /// What a scene lacks, as the first line of the compiler's message.
 template <class S, class V, class Sampler, std::size_t N>
@@ -133,19 +175,6 @@ consteval bool explain_scene() {
 /// For functions without an overload, where a wrong type can only be a mistake: Scene, or an error that says why not.
 template <class S, class V, class Sampler, std::size_t N = 2>
 concept MustBeScene = Scene<S, V, Sampler, N> || explain_scene<S, V, Sampler, N>();
-
-/// Nothing is flown through: what a scene without absorption carries.
-struct NoMedium {};
-
-template <class S, class V>
-struct medium_of {
-    using type = NoMedium;
-};
-template <class S, class V>
-    requires Absorbs<S, V>
-struct medium_of<S, V> {
-    using type = typename S::medium;
-};
 } // namespace detail
 
 } // namespace nephroid

@@ -50,6 +50,7 @@ private:
     static constexpr bool all_ways = follows_all_ways<Visitor>;
     static constexpr bool may_part = all_ways && ScattersAllWays<S, V>;
     static constexpr unsigned most_lamp_surfaces = 4; // of both sides of its sheets; more are the tracer's mistake
+    static constexpr unsigned most_passed = 1000; // false surfaces; a tracer that finds one again and again has no end
     using waiting_t = typename waiting_of<S, V, F, N, trail_t<Visitor>, may_part>::type;
 
     /// To the next surface, and off it again. @return  whether the photon goes on
@@ -75,12 +76,18 @@ private:
         if constexpr (may_part)
             return part(*hit, scene_.scatter_all(*hit, now.direction), kept);
         else
-            return take<false>(*hit, scene_.scatter(*hit, now.direction, sampler_), kept);
+            return take<false>(*hit, scatter_in(steps_.medium(), scene_, *hit, now.direction, sampler_), kept);
     }
 
     /// @tparam weighed  whether the photon's flux is the way's share already
     template <bool weighed, class Scattering>
     [[nodiscard]] bool take(const H& hit, const Scattering& scattering, Kept& kept) {
+        if (scattering.event == Event::pass) {
+            if (passed_++ == most_passed)
+                return steps_.end(Fate::terminated);
+            steps_.pass(hit, scattering);
+            return true;
+        }
         const bool is_opaque = scattering.event == Event::absorb || scattering.event == Event::deposit;
         if (steps_.began_here()) {
             if (path_.is_direct() && (is_opaque || !steps_.is_in_front_of(hit)) && lamp_surfaces_ < most_lamp_surfaces)
@@ -217,7 +224,7 @@ private:
     [[no_unique_address]] std::conditional_t<tells_flights, Departure<V>, NoDeparture> departure_{};
     [[no_unique_address]] waiting_t waiting_{};
     unsigned followed_ = 0;
-    unsigned lamp_surfaces_ = 0;
+    unsigned lamp_surfaces_ = 0, passed_ = 0;
 };
 
 } // namespace nephroid::detail
