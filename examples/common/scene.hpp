@@ -147,10 +147,10 @@ public:
 
     /// @param direction  that the photon flies in, unit
     /// @param sampler    drawn from once, and only where a dielectric both reflects and refracts and both are followed
-    /// @param medium     that the photon comes through
+    /// @param through    what the photon comes through
     template <class Sampler>
     [[nodiscard]] Bounce<T, F> scatter(const Hit<T>& hit, const Vec3<T>& direction, Sampler& sampler,
-                                       const Medium& medium) const {
+                                       const Medium& through) const {
         const Material<F>& m = material(hit);
         switch (m.surface) {
         case Surface::diffuse:
@@ -164,7 +164,7 @@ public:
             return {Event::absorb};
         }
 
-        const Interface<T> at = interface(m, hit, direction, medium);
+        const Interface<T> at = interface(m, hit, direction, through);
         if (!at.is_real)
             return {Event::pass, grey<F>(1), T(1), at.beyond};
         const T reflected = reflectance(m, at);
@@ -177,9 +177,9 @@ public:
 
     /// How a ray that comes through a medium meets a dielectric.
     [[nodiscard]] Interface<T> interface(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
-                                         const Medium& medium) const {
+                                         const Medium& through) const {
         const bool enters = dot(direction, hit.geometric_normal) < T(0);
-        const auto surface = medium.at_surface_of(static_cast<std::int32_t>(hit.surface), m.priority, enters);
+        const auto surface = through.at_surface_of(static_cast<std::int32_t>(hit.surface), m.priority, enters);
         return {T(index_of(surface.before) / index_of(surface.after)), cosine(hit, direction), surface.beyond,
                 surface.is_real()};
     }
@@ -380,8 +380,8 @@ private:
                           [&](std::uint32_t leaf, T t_max) { return visit(bounded_[bvh_.leaf(leaf).front()], t_max); });
     }
 
-    [[nodiscard]] double index_of(std::int32_t medium) const {
-        return medium < 0 ? 1 : materials_[static_cast<std::size_t>(medium)].ior;
+    [[nodiscard]] double index_of(std::int32_t material) const {
+        return material < 0 ? 1 : materials_[static_cast<std::size_t>(material)].ior;
     }
 
     /// Between the ray and the shading normal; where that one faces away, the geometric one.
