@@ -118,8 +118,13 @@ struct ContactOrder {
     Rank rank;
     std::uint64_t part = 0; ///< the upper half of primitives' numbers
 
-    [[nodiscard]] bool leaves_out(std::uint32_t primitive, const wide_t<T>& distance, const wide_t<T>& cosine) const {
-        return contacts.leave_out(part << 32 | primitive, T(distance), T(cosine));
+    [[nodiscard]] bool was_left(std::uint32_t primitive) const { return contacts.was_left(part << 32 | primitive); }
+
+    /// @param cosine  cosine() between the ray and the hit's normal, asked for where it matters
+    template <class Cosine>
+    [[nodiscard]] bool leaves_out(std::uint32_t primitive, const wide_t<T>& distance, const Cosine& cosine) const {
+        const std::uint64_t number = part << 32 | primitive;
+        return contacts.may_leave_out(number, T(distance)) && contacts.leave_out(number, T(distance), T(cosine()));
     }
 };
 

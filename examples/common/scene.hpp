@@ -324,8 +324,11 @@ private:
                 if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, TriangleMesh<T>>) {
                     return shape.nearest(ray, t_max, order);
                 } else {
+                    if (order.was_left(0))
+                        ray.t_min = order.contacts.reach();
                     auto found = shape.nearest(ray, t_max);
-                    while (found && order.leaves_out(0, found->distance, cosine_at(shape, ray, *found))) {
+                    const auto slope = [&] { return cosine_at(shape, ray, *found); };
+                    while (found && order.leaves_out(0, found->distance, slope)) {
                         const T here = T(found->distance); // beyond it, which rounding may have put before it
                         ray.t_min = here + (T(2) * std::numeric_limits<T>::epsilon() * abs(here) +
                                             (std::numeric_limits<T>::min)());
@@ -353,12 +356,12 @@ private:
         const auto slope_of = [&](std::size_t i, const Candidate<T>& candidate) {
             return std::visit([&](const auto& shape) { return cosine_at(shape, ray, candidate); }, parts_[i].shape);
         };
-        if (abs(found.distance - best.distance) > flattest * contact_height(ray, found.distance))
+        const wide_t<T> apart = abs(found.distance - best.distance), height = contact_height(ray, found.distance);
+        const std::size_t mine = material_of(part, found), others = material_of(best_part, best);
+        if (mine == others || apart > flattest * height)
             return is_nearer;
         const wide_t<T> slope = slope_of(part, found);
-        const std::size_t mine = material_of(part, found), others = material_of(best_part, best);
-        if (mine == others || abs(found.distance - best.distance) * (std::max)(wide_t<T>(abs(slope)), 1 / flattest) >
-                                  contact_height(ray, found.distance))
+        if (apart * wide_t<T>(abs(slope)) > height)
             return is_nearer;
         const int rank = order.rank(mine, slope > 0), other = order.rank(others, slope_of(best_part, best) > 0);
         return rank < other || (rank == other && is_nearer);

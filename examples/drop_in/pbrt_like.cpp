@@ -185,7 +185,6 @@ std::vector<VisiblePoint> TraceCamera(const Film& film) {
 
 // adapter begins
 #include <nephroid/nephroid.hpp>
-#include <nephroid/pass/diagnose.hpp>
 
 using namespace pbrtish;
 

@@ -192,7 +192,6 @@ struct nephroid::vector_traits<Vec> {
     static float z(const Vec& v) { return v[2]; }
 };
 #else
-#include <nephroid/pass/diagnose.hpp>
 #include <nephroid/vector/glm.hpp> // the same for GLM's
 #endif
 

@@ -128,7 +128,6 @@ std::vector<Seen> trace_camera(std::size_t size) {
 
 // adapter begins
 #include <nephroid/nephroid.hpp>
-#include <nephroid/pass/diagnose.hpp>
 
 using renderer::Vec;
 

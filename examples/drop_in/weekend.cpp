@@ -185,7 +185,6 @@ public:
 
 // adapter begins
 #include <nephroid/nephroid.hpp>
-#include <nephroid/pass/diagnose.hpp>
 
 // How nephroid reads and makes the renderer's vector. A color is the same type, and so can be a photon's flux as it is.
 template <>

@@ -70,7 +70,9 @@ TEST_CASE_TEMPLATE("scene from gltf: materials become what they are nearest to",
     REQUIRE(g.warnings.size() == 1);
     CHECK(g.warnings[0].find("brushed") != std::string::npos);
     // Beer's law leaves the attenuation's colour after its distance.
-    const Vec3<T> left = g.scene.transmittance(Medium{1}, T(2));
+    Medium inside;
+    inside.enter(1);
+    const Vec3<T> left = g.scene.transmittance(inside, T(2));
     CHECK(std::abs(left.x - T(0.25)) < T(1e-6));
     CHECK(std::abs(left.y - T(0.5)) < T(1e-6));
     CHECK(left.z == 1);

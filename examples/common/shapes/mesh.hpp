@@ -191,17 +191,17 @@ private:
     template <class Order>
     [[nodiscard]] bool comes_first(const Ray<T>& ray, const Candidate<T>& found,
                                    const std::optional<Candidate<T>>& best, const Order& order) const {
-        const wide slope = cosine(ray, found.primitive);
+        const auto slope = [&] { return cosine(ray, found.primitive); };
         if (order.leaves_out(found.primitive, found.distance, slope))
             return false;
         if (!best)
             return true;
         const bool is_nearer = found.distance < best->distance;
         const std::uint32_t mine = material(found.primitive), others = material(best->primitive);
-        if (mine == others || abs(found.distance - best->distance) * (std::max)(wide(abs(slope)), 1 / most_lean) >
-                                  contact_height(ray, found.distance))
+        const wide apart = abs(found.distance - best->distance), height = contact_height(ray, found.distance);
+        if (mine == others || apart > most_lean * height || apart * wide(abs(slope())) > height)
             return is_nearer;
-        const int rank = order.rank(mine, slope > 0), other = order.rank(others, cosine(ray, best->primitive) > 0);
+        const int rank = order.rank(mine, slope() > 0), other = order.rank(others, cosine(ray, best->primitive) > 0);
         return rank < other || (rank == other && is_nearer);
     }
 

@@ -38,8 +38,17 @@ public:
         return primitive == left_ || has_crossed(primitive) == forwards_;
     }
 
+    /// Whether `leave_out` has to be asked at all, which spares the cosine. For curved shapes with a search of their
+    /// own: it may begin at `reach()` on the one that was left, and then finds it again at low angles only.
+    [[nodiscard]] bool may_leave_out(std::uint64_t primitive, T distance) const {
+        return distance <= reach_ || (begins_on_surface_ && primitive == left_);
+    }
+    [[nodiscard]] bool was_left(std::uint64_t primitive) const { return begins_on_surface_ && primitive == left_; }
+
     /// The least distance that counts.
     [[nodiscard]] T t_min() const { return -reach_; }
+    /// What is not nearer than this does not touch the surface that was left.
+    [[nodiscard]] T reach() const { return reach_; }
 
     /// Whether a hit lies where the ray begins: on one of the surfaces that touch.
     [[nodiscard]] bool is_here(T distance, T cosine) const {

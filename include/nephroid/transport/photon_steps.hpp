@@ -6,15 +6,11 @@
 #include "nephroid/emission/photon.hpp"
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/bend.hpp"
-#include "nephroid/transport/contacts.hpp"
 #include "nephroid/transport/deposit.hpp"
 #include "nephroid/transport/ray_start.hpp"
 #include "nephroid/transport/sound_values.hpp"
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <limits>
 #include <utility>
 
 namespace nephroid::detail {
@@ -26,11 +22,7 @@ public:
     using T = scalar_t<V>;
     using H = hit_t<S, V>;
     using Medium = typename medium_of<S, V>::type;
-    using Contact = typename contact_of<S, V>::type;
-    static constexpr bool surfaces_may_touch = LetsSurfacesTouch<S, V>;
-    static_assert(!surfaces_may_touch || !HasTracerEpsilon<S, V>,
-                  "nephroid: a scene that takes Contacts must have no tracer_epsilon, but find what lies at its rays' "
-                  "start (transport/contacts.hpp)");
+    using Start = RayStart<S, V>;
 
     PhotonSteps(const S& scene, Photon<V, F, N>& photon, Statistics& account)
         : scene_(scene), account_(account), photon_(photon), emitted_power_(power(photon.flux)) {}
@@ -43,7 +35,7 @@ public:
                 return end(Fate::invalid);
             if constexpr (KnowsMediumOfLamps<S, V>)
                 medium_ = scene_.medium_at(photon_.position);
-            begin_ray(T(0));
+            ray_start_.begin(scene_, photon_);
             return true;
         }
         // A light may emit nothing in a direction; what is no number at all has no place in a sum.
@@ -52,27 +44,15 @@ public:
     }
 
     /// The first surface on the photon's way.
-    [[nodiscard]] auto next_hit() const {
-        constexpr T endless = std::numeric_limits<T>::infinity();
-        if constexpr (surfaces_may_touch)
-            return scene_.intersect(photon_.position, photon_.direction, contact_.surfaces.t_min(), endless,
-                                    contact_.surfaces);
-        else
-            return scene_.intersect(photon_.position, photon_.direction, T(0), endless);
-    }
+    [[nodiscard]] auto next_hit() const { return ray_start_.next_hit(scene_, photon_); }
 
     /// Carries the photon and its tangents to a hit.
     [[nodiscard]] bool fly_to(const H& hit) {
-        T distance = hit.distance;
         const V normal = hit.geometric_normal;
-        if constexpr (surfaces_may_touch) {
-            begins_at_hit_ = contact_.surfaces.is_here(distance, dot(photon_.direction, normal));
-            if (begins_at_hit_)
-                distance = (std::max)(distance, T(0));
-        }
+        const T distance = ray_start_.distance_to(hit, photon_.direction);
         if (!(distance >= T(0)) || !is_unit(normal))
             return end(Fate::invalid);
-        const auto flight = transfer(photon_.direction, distance + ahead_, normal);
+        const auto flight = transfer(photon_.direction, ray_start_.from_surface(distance), normal);
         if (!flight)
             return end(Fate::invalid);
         for (Tangent<V>& tangent : photon_.differential) {
@@ -84,8 +64,7 @@ public:
         else
             photon_.position = photon_.position + distance * photon_.direction;
         const T flown = distance - skipped_by_tracer<V>(scene_);
-        if (!contact_.begins_on_surface())
-            begins_at_hit_ = flown * abs(dot(photon_.direction, normal)) <= T(2) * ray_clearance(hit, photon_.position);
+        ray_start_.arrive(hit, photon_, flown);
         if constexpr (Absorbs<S, V>)
             return weigh(scene_.transmittance(medium_, flown));
         else
@@ -167,33 +146,15 @@ public:
         return end(carried == 0 ? Fate::absorbed : Fate::terminated);
     }
 
-    /// Moves the origin of the next ray off the surface, to the side that it leaves on.
+    /// Begins the next ray, on the side of the surface that it leaves to.
     ///
     /// @param passed  whether it goes on through the surface
-    void leave(const H& hit, [[maybe_unused]] bool passed) {
-        if constexpr (surfaces_may_touch) {
-            contact_.surfaces.leave(hit.primitive, dot(photon_.direction, V(hit.geometric_normal)),
-                                    ray_clearance(hit, photon_.position), passed, begins_at_hit_);
-            if constexpr (requires { hit.surface; })
-                contact_.left = std::uint64_t(hit.surface);
-            begin_ray(T(0));
-        } else if constexpr (SpawnsRays<S, V>) {
-            photon_.position = scene_.spawn(hit, photon_.direction);
-            begin_ray(T(0));
-        } else {
-            // Along the ray, which so stays on its line, and only for what is left at low angles along the normal.
-            const V normal = hit.geometric_normal;
-            const T cosine = dot(photon_.direction, normal), steepness = abs(cosine),
-                    height = ray_clearance(hit, photon_.position);
-            const T along = steepness > T(0.5) ? height / steepness : T(2) * height;
-            const T rest = (std::max)(T(0), height - along * steepness);
-            photon_.position = photon_.position + (along * photon_.direction + (cosine > T(0) ? rest : -rest) * normal);
-            begin_ray(along + rest * steepness);
-        }
-    }
+    void leave(const H& hit, bool passed) { ray_start_.leave(scene_, hit, passed, photon_); }
 
-    /// Whether the surface that the photon is at is where its ray began, as far as numbers can tell.
-    [[nodiscard]] bool began_here() const { return begins_at_hit_; }
+    /// Where the ray began that came here, and what it will leave out.
+    [[nodiscard]] const Start& ray_start() const { return ray_start_; }
+    /// Whether the hit is to be left out: see RayStart.
+    [[nodiscard]] bool is_on_edge(const H& hit) { return ray_start_.is_on_edge(hit, photon_.direction); }
 
     bool end(Fate fate) {
         account_.end(fate, power(photon_.flux));
@@ -202,35 +163,15 @@ public:
 
     [[nodiscard]] const Photon<V, F, N>& photon() const { return photon_; }
     [[nodiscard]] const Medium& medium() const { return medium_; }
-    /// From the surface that the photon left to a distance along its ray, which begins a little ahead.
-    [[nodiscard]] T distance_from_surface(T distance) const { return distance + ahead_; }
-
     /// Goes on with another photon, on the surface where this one is.
     void become(const Photon<V, F, N>& photon, const Medium& medium) {
         photon_ = photon;
         medium_ = medium;
     }
     /// On another surface, where a way waited.
-    void become(const Photon<V, F, N>& photon, const Medium& medium, const Contact& contact, bool begins_at_hit) {
+    void become(const Photon<V, F, N>& photon, const Medium& medium, const Start& ray_start) {
         become(photon, medium);
-        contact_ = contact;
-        begins_at_hit_ = begins_at_hit;
-    }
-    [[nodiscard]] const Contact& contact() const { return contact_; }
-
-    /// Whether the hit is a triangle beside the one that the photon left, of the same surface: it lies on their edge.
-    [[nodiscard]] bool is_on_edge(const H& hit) {
-        if constexpr (surfaces_may_touch && requires { hit.surface; }) {
-            const T cosine = dot(photon_.direction, V(hit.geometric_normal));
-            const bool is_beside = contact_.surfaces.is_here(hit.distance, cosine) &&
-                                   std::uint64_t(hit.surface) == contact_.left &&
-                                   (cosine > T(0)) == contact_.surfaces.leaves_along_normal();
-            if (is_beside)
-                contact_.surfaces.leave_beside(hit.primitive);
-            return is_beside;
-        } else {
-            return false;
-        }
+        ray_start_ = ray_start;
     }
     /// The photon carries this much from here on: whoever calls this books the rest.
     void carry(const F& flux) { photon_.flux = flux; }
@@ -245,24 +186,13 @@ public:
     [[nodiscard]] static double power(const F& flux) { return double(flux_traits<F>::power(flux)); }
 
 private:
-    /// @param ahead  how far along its line from the surface the photon was put
-    void begin_ray(T ahead) {
-        ahead_ = ahead;
-        if constexpr (HasTracerEpsilon<S, V>) {
-            photon_.position = photon_.position - skipped_by_tracer<V>(scene_) * photon_.direction;
-            ahead_ = ahead_ - skipped_by_tracer<V>(scene_);
-        }
-    }
-
     [[nodiscard]] T facing(const H& hit) const { return facing_sign(photon_.direction, hit); }
 
     const S& scene_;
     Statistics& account_;
     Photon<V, F, N>& photon_; // the caller's own: copied here, its first flight would wait for it
     double emitted_power_;
-    T ahead_ = T(0); ///< how far ahead of the surface that the photon left its ray began
-    bool begins_at_hit_ = false;
-    [[no_unique_address]] Contact contact_{};
+    Start ray_start_{};
     [[no_unique_address]] Medium medium_{};
 };
 

@@ -65,7 +65,7 @@ private:
         if constexpr (tells_flights) {
             const T distance = hit ? T((*hit).distance) : std::numeric_limits<T>::infinity();
             const std::optional<V> end_normal = hit ? std::optional<V>(steps_.facing_normal(*hit)) : std::nullopt;
-            visitor_.flight(departure_.flight(now, steps_.distance_from_surface(distance), end_normal, path_));
+            visitor_.flight(departure_.flight(now, steps_.ray_start().from_surface(distance), end_normal, path_));
         }
         if (!hit) {
             account_.escaped_first += path_.is_direct();
@@ -89,7 +89,7 @@ private:
             return true;
         }
         const bool is_opaque = scattering.event == Event::absorb || scattering.event == Event::deposit;
-        if (steps_.began_here()) {
+        if (steps_.ray_start().began_here()) {
             if (path_.is_direct() && (is_opaque || !steps_.is_in_front_of(hit)) && lamp_surfaces_ < most_lamp_surfaces)
                 return leave_lamp(hit);
             if constexpr (!LetsSurfacesTouch<S, V>)
@@ -170,8 +170,8 @@ private:
             steps_.carry(arrived * ways[i].weight);
             if (!steps_.carries_enough(limits_.least_share))
                 continue;
-            if (followed_ < limits_.branches && waiting_.push({steps_.photon(), steps_.medium(), steps_.contact(),
-                                                               steps_.began_here(), path_, hit, ways[i]}))
+            if (followed_ < limits_.branches &&
+                waiting_.push({steps_.photon(), steps_.medium(), steps_.ray_start(), path_, hit, ways[i]}))
                 ++followed_;
             else
                 (void)steps_.end(Fate::terminated);
@@ -186,7 +186,7 @@ private:
             if (waiting_.empty())
                 return false;
             const auto way = waiting_.pop();
-            steps_.become(way.photon, way.medium, way.contact, way.begins_at_hit);
+            steps_.become(way.photon, way.medium, way.ray_start);
             path_ = way.path;
             goes_on = take<true>(way.hit, way.scattering, kept);
             return true;

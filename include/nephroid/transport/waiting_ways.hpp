@@ -3,7 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/photon.hpp"
-#include "nephroid/transport/contacts.hpp"
+#include "nephroid/transport/ray_start.hpp"
 #include "nephroid/transport/trail.hpp"
 #include "nephroid/transport/ways.hpp"
 
@@ -16,12 +16,11 @@
 namespace nephroid::detail {
 
 /// A way that waits: the photon on the surface where ways part, its flux the way's share.
-template <class P, class Medium, class Contact, class Trail, class H, class Scattering>
+template <class P, class Medium, class Start, class Trail, class H, class Scattering>
 struct WaitingWay {
     P photon;
     [[no_unique_address]] Medium medium;
-    [[no_unique_address]] Contact contact;
-    bool begins_at_hit; ///< its ray began on the surface that it has come to
+    Start ray_start; ///< of the ray that came here
     WalkedPath<Trail> path;
     H hit;
     Scattering scattering;
@@ -61,8 +60,7 @@ struct waiting_of<S, V, F, N, Trail, true> {
     using Scattering = std::remove_cvref_t<decltype(std::declval<const S&>().scatter_all(
         std::declval<const hit_t<S, V>&>(), std::declval<const V&>())[0])>;
     using Medium = typename medium_of<S, V>::type;
-    using type = WaitingWays<
-        WaitingWay<Photon<V, F, N>, Medium, typename contact_of<S, V>::type, Trail, hit_t<S, V>, Scattering>>;
+    using type = WaitingWays<WaitingWay<Photon<V, F, N>, Medium, RayStart<S, V>, Trail, hit_t<S, V>, Scattering>>;
 };
 
 } // namespace nephroid::detail

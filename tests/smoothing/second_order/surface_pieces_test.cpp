@@ -23,11 +23,11 @@ const TaskRunner one_by_one = [](std::size_t count, const std::function<void(std
         task(i);
 };
 
-/// @param surface  surface(u, v) -> SurfacePoint
+/// @param surface  surface(u, v) -> PlaceOnSurface
 template <class Surface>
-[[nodiscard]] std::vector<SurfacePoint> points_on(const Surface& surface, std::size_t count = 4000) {
+[[nodiscard]] std::vector<PlaceOnSurface> points_on(const Surface& surface, std::size_t count = 4000) {
     const HaltonSequence sequence;
-    std::vector<SurfacePoint> points;
+    std::vector<PlaceOnSurface> points;
     for (std::size_t i = 0; i < count; ++i)
         points.push_back(surface(sequence.sample<double>(i, 0), sequence.sample<double>(i, 1)));
     return points;
@@ -37,7 +37,7 @@ constexpr Space3 up{0, 0, 1};
 
 /// The points of two pieces, each as a half: piece 0 or 1 by where a point lies.
 template <class IsFirst>
-void check_halves(const std::vector<SurfacePoint>& points, const IsFirst& is_first) {
+void check_halves(const std::vector<PlaceOnSurface>& points, const IsFirst& is_first) {
     const Pieces pieces(points, one_by_one);
     REQUIRE(pieces.sizes().size() == 2);
     for (std::size_t i = 1; i < points.size(); ++i)
@@ -48,18 +48,18 @@ void check_halves(const std::vector<SurfacePoint>& points, const IsFirst& is_fir
 
 TEST_CASE("surface pieces: smooth surfaces are whole") {
     CHECK(Pieces(points_on([](double u, double v) {
-                     return SurfacePoint{{u, v, 0}, up};
+                     return PlaceOnSurface{{u, v, 0}, up};
                  }),
                  one_by_one)
               .sizes() == std::vector<std::uint32_t>{4000});
     const auto ball = [](double u, double v) {
         const Space3 n = space3(sphere_direction<glm::dvec3>(u, v));
-        return SurfacePoint{0.3 * n, n};
+        return PlaceOnSurface{0.3 * n, n};
     };
     CHECK(Pieces(points_on(ball), one_by_one).sizes() == std::vector<std::uint32_t>{4000});
     const auto wave = [](double u, double v) { // slopes up to 0.5, as those of water
         const double slope = 0.5 * std::cos(40 * u), length = std::hypot(1.0, slope);
-        return SurfacePoint{{u, v, 0.0125 * std::sin(40 * u)}, {-slope / length, 0, 1 / length}};
+        return PlaceOnSurface{{u, v, 0.0125 * std::sin(40 * u)}, {-slope / length, 0, 1 / length}};
     };
     CHECK(Pieces(points_on(wave), one_by_one).sizes() == std::vector<std::uint32_t>{4000});
 }
@@ -67,26 +67,26 @@ TEST_CASE("surface pieces: smooth surfaces are whole") {
 // 4000 points on a unit square are 0.016 apart.
 TEST_CASE("surface pieces: a step, an edge and a ball above a floor part them") {
     check_halves(points_on([](double u, double v) {
-                     return SurfacePoint{{u, v, u < 0.4 ? 0.01 : 0}, up};
+                     return PlaceOnSurface{{u, v, u < 0.4 ? 0.01 : 0}, up};
                  }),
-                 [](const SurfacePoint& p) { return p.position.x < 0.4; });
+                 [](const PlaceOnSurface& p) { return p.position.x < 0.4; });
     check_halves(points_on([](double u, double v) {
-                     return u < 0.4 ? SurfacePoint{{u, v, 0}, up} : SurfacePoint{{0.4, v, u - 0.4}, {-1, 0, 0}};
+                     return u < 0.4 ? PlaceOnSurface{{u, v, 0}, up} : PlaceOnSurface{{0.4, v, u - 0.4}, {-1, 0, 0}};
                  }),
-                 [](const SurfacePoint& p) { return p.normal.z > 0.5; });
+                 [](const PlaceOnSurface& p) { return p.normal.z > 0.5; });
     check_halves(points_on([](double u, double v) {
                      const double x = 2 * u - 1, y = 2 * v - 1, rest = 0.25 - x * x - y * y;
                      if (!(rest > 0))
-                         return SurfacePoint{{x, y, 0}, up};
+                         return PlaceOnSurface{{x, y, 0}, up};
                      const Space3 n = 2 * Space3{x, y, std::sqrt(rest)};
-                     return SurfacePoint{{x, y, 1 + std::sqrt(rest)}, n};
+                     return PlaceOnSurface{{x, y, 1 + std::sqrt(rest)}, n};
                  }),
-                 [](const SurfacePoint& p) { return p.position.z > 0.5; });
+                 [](const PlaceOnSurface& p) { return p.position.z > 0.5; });
 }
 
 TEST_CASE("surface pieces: another point is known by its neighbours or not at all") {
     const Pieces pieces(points_on([](double u, double v) {
-                            return SurfacePoint{{u, v, u < 0.4 ? 0.5 : 0}, up};
+                            return PlaceOnSurface{{u, v, u < 0.4 ? 0.5 : 0}, up};
                         }),
                         one_by_one);
     REQUIRE(pieces.sizes().size() == 2);

@@ -29,17 +29,17 @@ public:
     }
 
     /// Nothing where hits have no position.
-    [[nodiscard]] const std::optional<SurfacePoint>& first() const { return first_; }
+    [[nodiscard]] const std::optional<PlaceOnSurface>& first() const { return first_; }
 
 private:
-    std::optional<SurfacePoint> first_;
+    std::optional<PlaceOnSurface> first_;
 };
 
 /// What a pilot's photons say of where paths part.
 template <Vector3 V>
 class PathPieces {
 public:
-    using FirstPoints = std::vector<std::optional<SurfacePoint>>;
+    using FirstPoints = std::vector<std::optional<PlaceOnSurface>>;
 
     PathPieces() = default;
     /// Gives photons whose path is parted signatures of their own. Others keep theirs, and so do those on the largest
@@ -55,10 +55,13 @@ public:
             samples.push_back(photon.sample.at);
         const EmissionCells cells(samples, 1, false);
         std::vector<std::uint32_t> landed; // neighbours one after the other
-        for (std::size_t cell = 0; cell < cells.size(); ++cell)
+        for (std::size_t n = 0; n < cells.size(); ++n) {
+            const std::size_t row = n / cells.columns(), column = n % cells.columns(); // there and back again
+            const std::size_t cell = row % 2 == 0 ? n : (row + 1) * cells.columns() - 1 - column;
             for (const std::uint32_t i : cells.photons(cell))
                 if (photons[i].deposit && photons[i].sample.coordinates >= 2) // else it has no neighbours anyway
                     landed.push_back(i);
+        }
         std::stable_sort(landed.begin(), landed.end(),
                          [&](auto a, auto b) { return key_of(photons[a]) < key_of(photons[b]); });
         for (auto begin = landed.begin(); begin != landed.end();) {
@@ -80,7 +83,7 @@ public:
 
     /// The same for a photon that was not of the pilot.
     template <class Photon>
-    void tell_apart(Photon& photon, const std::optional<SurfacePoint>& first) const {
+    void tell_apart(Photon& photon, const std::optional<PlaceOnSurface>& first) const {
         if (paths_.empty() || !photon.deposit)
             return;
         const auto path = std::lower_bound(paths_.begin(), paths_.end(), key_of(photon),
@@ -102,8 +105,8 @@ private:
     [[nodiscard]] static Key key_of(const PathSample& photon) { return {photon.sample.light, photon.signature}; }
 
     template <class Photon>
-    [[nodiscard]] static std::optional<SurfacePoint> landing(const Photon& photon) {
-        return SurfacePoint{space3(photon.deposit->position), space3(photon.deposit->normal)};
+    [[nodiscard]] static std::optional<PlaceOnSurface> landing(const Photon& photon) {
+        return PlaceOnSurface{space3(photon.deposit->position), space3(photon.deposit->normal)};
     }
 
     [[nodiscard]] static std::uint32_t parted(std::uint32_t signature, std::uint32_t first, std::uint32_t landing) {
@@ -116,14 +119,14 @@ private:
                                           const TaskRunner& run) {
         bool is_whole = true;
         for (auto i = begin; i != end; ++i) {
-            const std::optional<SurfacePoint> point = point_of(*i);
+            const std::optional<PlaceOnSurface> point = point_of(*i);
             if (!point || !std::isfinite(inner(point->position, point->position)))
                 return std::nullopt;
             is_whole = is_whole && (i == begin || may_share_surface(*point_of(*(i - 1)), *point));
         }
         if (is_whole)
             return std::nullopt;
-        std::vector<SurfacePoint> points;
+        std::vector<PlaceOnSurface> points;
         for (auto i = begin; i != end; ++i)
             points.push_back(*point_of(*i));
         Pieces pieces(std::in_place, std::move(points), run);

@@ -20,7 +20,7 @@
 namespace nephroid::detail {
 
 /// A place on a surface, and the unit normal on the side that was met.
-struct SurfacePoint {
+struct PlaceOnSurface {
     Space3 position, normal;
 };
 
@@ -32,7 +32,7 @@ template <Vector3 V>
 
 /// Whether two points may lie on one smooth surface. Between points of a curve, one lies off the other's tangent by
 /// half of the angle times the distance: twice that, and a tenth for bumps and facets, are let pass.
-[[nodiscard]] inline bool may_share_surface(const SurfacePoint& a, const SurfacePoint& b) {
+[[nodiscard]] inline bool may_share_surface(const PlaceOnSurface& a, const PlaceOnSurface& b) {
     if (!(inner(a.normal, b.normal) > 0.7)) // an edge of 45 degrees
         return false;
     const Space3 away = b.position - a.position, turn = b.normal - a.normal;
@@ -49,7 +49,7 @@ public:
     static constexpr std::uint32_t unknown = (std::numeric_limits<std::uint32_t>::max)();
 
     /// @param points  finite
-    SurfacePieces(std::vector<SurfacePoint> points, const TaskRunner& run)
+    SurfacePieces(std::vector<PlaceOnSurface> points, const TaskRunner& run)
         : points_(std::move(points)), tree_(points_.size(), [this](std::size_t i) { return world(points_[i]); }) {
         std::vector<std::array<std::uint32_t, linked>> links(points_.size());
         for_each_index(run, points_.size(), 256, [&](std::size_t i) { links[i] = neighbours_of(i); });
@@ -75,7 +75,7 @@ public:
     [[nodiscard]] std::uint32_t operator[](std::size_t point) const { return pieces_[point]; }
 
     /// The piece that another point would be in; `unknown` if it lies on the surface of none of the nearest.
-    [[nodiscard]] std::uint32_t piece_about(const SurfacePoint& point) const {
+    [[nodiscard]] std::uint32_t piece_about(const PlaceOnSurface& point) const {
         std::array<Neighbour<T>, linked> found;
         const std::size_t count = tree_.nearest(tree_.relative(world(point)), found);
         double nearest = std::numeric_limits<double>::infinity();
@@ -93,7 +93,7 @@ public:
 private:
     static constexpr std::size_t linked = 8; // a plane's random points hang together by six
 
-    [[nodiscard]] static V world(const SurfacePoint& p) {
+    [[nodiscard]] static V world(const PlaceOnSurface& p) {
         return make_vector<V>(T(p.position.x), T(p.position.y), T(p.position.z));
     }
 
@@ -129,7 +129,7 @@ private:
             piece = names[piece];
     }
 
-    std::vector<SurfacePoint> points_;
+    std::vector<PlaceOnSurface> points_;
     PointTree<V> tree_;
     std::vector<std::uint32_t> pieces_, sizes_;
 };
