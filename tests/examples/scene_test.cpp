@@ -91,7 +91,7 @@ TEST_CASE_TEMPLATE("scene: glass reflects or refracts by one number against the 
         CHECK(refracted.event == Event::refract);
         CHECK(refracted.weight == Vec3<T>(1));
         CHECK(refracted.eta == (from_within ? T(1.5) : T(1 / 1.5)));
-        CHECK(refracted.medium.here() == (from_within ? Media::none : 0));
+        CHECK(refracted.medium.here() == (from_within ? Medium::none : 0));
         CHECK(low.drawn == 1);
         CHECK(high.drawn == 1);
     }
