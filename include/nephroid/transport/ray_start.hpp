@@ -37,8 +37,8 @@ template <Vector3 V, class S>
         return scalar_t<V>(0);
 }
 
-/// Where a photon's ray begins: on the surface that it leaves if the scene leaves out what touches there (Contacts), else
-/// a little off it.
+/// Where a photon's ray begins: on the surface that it leaves if the scene leaves out what touches there (Contacts),
+/// else a little off it.
 template <class S, Vector3 V>
 class RayStart {
 public:

@@ -122,8 +122,9 @@ concept DrawsFromConst = requires {
 
 /// All that a photon's walk needs. One object: a renderer's scene, or a small struct that points at it.
 ///
-/// A float's coordinates are as coarse as a ten-millionth of the distance from the origin. A caustic of one unit is noisy
-/// 1,000 units away from it, off by a tenth at 10,000 and by 40% at 100,000: let a scene lie about its own middle.
+/// A float's coordinates are as coarse as a ten-millionth of the distance from the origin. A caustic of one unit is
+/// noisy 1,000 units away from it, off by a tenth at 10,000 and by 40% at 100,000: a scene should lie about its own
+/// middle.
 ///
 /// ```cpp
 /// struct Adapter {
