@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <span>
 #include <vector>
 
@@ -65,9 +64,8 @@ private:
         const std::size_t had = blocks_.size(), want = (count + records_per_block - 1) / records_per_block;
         if (want <= had)
             return;
-        std::vector<std::vector<Record>> blocks(want - had);
-        executor(blocks.size(), [&](std::size_t i) { blocks[i].resize(records_per_block); });
-        blocks_.insert(blocks_.end(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
+        blocks_.resize(want);
+        executor(want - had, [&](std::size_t i) { blocks_[had + i] = std::vector<Record>(records_per_block); });
     }
 
     /// Prefetches a record while its photon is traced, because it is far from the last one in memory.
