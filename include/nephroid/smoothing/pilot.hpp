@@ -2,7 +2,7 @@
 /// @file  The pilot: the first photons of a pass, traced before the others to choose all footprints from.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/task_runner.hpp"
 #include "nephroid/pass/coherent_order.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/sequence/sequence.hpp"
@@ -72,7 +72,7 @@ template <class S, class L, class Sequence, class E>
         pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i], trail);
         firsts[i] = trail.first();
     });
-    pilot.pieces = PathPieces<typename L::vector>(pilot.photons, firsts, run_by(executor));
+    pilot.pieces = PathPieces<typename L::vector>(pilot.photons, firsts, TaskRunner(executor));
     return pilot;
 }
 
