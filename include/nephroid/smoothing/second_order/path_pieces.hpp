@@ -4,6 +4,7 @@
 ///        turned them, and by that on which they landed.
 #pragma once
 
+#include "nephroid/execution/task_runner.hpp"
 #include "nephroid/smoothing/second_order/emission_cells.hpp"
 #include "nephroid/smoothing/second_order/surface_pieces.hpp"
 #include "nephroid/transport/trail.hpp"

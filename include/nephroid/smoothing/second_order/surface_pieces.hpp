@@ -3,7 +3,7 @@
 ///        lie in each other's tangent planes, as far as those turn between them; across an edge or a step they do not.
 #pragma once
 
-#include "nephroid/execution/executor.hpp"
+#include "nephroid/execution/task_runner.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
 #include "nephroid/tree/point_tree.hpp"
 
