@@ -25,7 +25,7 @@ template <class K>
 
 /// Throws std::invalid_argument for an integral that is not 1, to 1%, and for a kernel that reaches beyond the disk.
 template <class K>
-void check_kernel(const K& kernel) {
+NEPHROID_NOINLINE void check_kernel(const K& kernel) {
     using T = std::conditional_t<MapsRadius2<K, double>, double, float>;
     const double integral = kernel_integral(kernel);
     if (!(std::abs(integral - 1) <= 0.01))

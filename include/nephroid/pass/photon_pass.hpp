@@ -43,7 +43,7 @@ namespace detail {
 /// Throws std::invalid_argument for options that make no sense.
 ///
 /// @param caller  name of the calling function, for the message
-inline void check(const PhotonPass& pass, const char* caller) {
+NEPHROID_NOINLINE inline void check(const PhotonPass& pass, const char* caller) {
     if (pass.count == 0)
         invalid_argument(std::string(caller) + ": zero photons; count must be at least 1");
     if (pass.total != 0 && pass.count > pass.total)

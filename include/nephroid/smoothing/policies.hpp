@@ -60,21 +60,21 @@ namespace detail {
 /// Throws std::invalid_argument for options that make no sense. An upper bound may be infinite.
 ///
 /// @param caller  name of the calling function, for the message
-inline void check(const SecondOrder& order, const char* caller) {
-    const auto require = [caller](bool holds, const char* name, const std::string& value, const char* rule) {
+NEPHROID_NOINLINE inline void check(const SecondOrder& order, const char* caller) {
+    const auto require = [caller](bool holds, const char* name, double value, const char* rule) {
         if (!holds)
-            invalid_argument(std::string(caller) + ": SecondOrder: " + name + " is " + value + "; " + rule);
+            invalid_argument(std::string(caller) + ": SecondOrder: " + name + " is " + text_of(value) + "; " + rule);
     };
     const SmoothingBounds& bounds = order.bounds;
-    require(bounds.least > 0 && std::isfinite(bounds.least), "bounds.least", text_of(bounds.least),
+    require(bounds.least > 0 && std::isfinite(bounds.least), "bounds.least", bounds.least,
             "it must be positive and finite");
-    require(bounds.least_radius > 0 && std::isfinite(bounds.least_radius), "bounds.least_radius",
-            text_of(bounds.least_radius), "it must be positive and finite");
-    require(bounds.largest_radius >= bounds.least_radius, "bounds.largest_radius", text_of(bounds.largest_radius),
+    require(bounds.least_radius > 0 && std::isfinite(bounds.least_radius), "bounds.least_radius", bounds.least_radius,
+            "it must be positive and finite");
+    require(bounds.largest_radius >= bounds.least_radius, "bounds.largest_radius", bounds.largest_radius,
             "it must be at least bounds.least_radius");
-    require(bounds.stretch >= 1, "bounds.stretch", text_of(bounds.stretch), "it must be at least 1");
-    require(order.largest_shift >= 0, "largest_shift", text_of(order.largest_shift), "it must not be negative");
-    require(order.pilot >= 1, "pilot", std::to_string(order.pilot), "it must be at least 1");
+    require(bounds.stretch >= 1, "bounds.stretch", bounds.stretch, "it must be at least 1");
+    require(order.largest_shift >= 0, "largest_shift", order.largest_shift, "it must not be negative");
+    require(order.pilot >= 1, "pilot", double(order.pilot), "it must be at least 1");
 }
 
 inline void check(const CurvedFootprints& order, const char* caller) {

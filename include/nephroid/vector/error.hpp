@@ -11,6 +11,13 @@
 #include <stdexcept>
 #endif
 
+/// For functions that look for wrong arguments: kept out of their callers, whose code they would only lengthen.
+#if defined(__GNUC__)
+#define NEPHROID_NOINLINE __attribute__((noinline))
+#else
+#define NEPHROID_NOINLINE
+#endif
+
 namespace nephroid {
 
 /// A function that receives the message under `-fno-exceptions`. It must not return; if it does, the program aborts.
@@ -25,7 +32,7 @@ inline ErrorHandler error_handler = [](const char*) { std::abort(); };
 /// @param message  "nephroid::function: what the value was, and what to do"
 /// Throws std::invalid_argument with that message, or calls `error_handler` with it under `-fno-exceptions`. All files
 /// of one program that include the library must agree in this respect.
-[[noreturn]] inline void invalid_argument(const std::string& message) {
+[[noreturn]] NEPHROID_NOINLINE inline void invalid_argument(const std::string& message) {
 #if defined(__cpp_exceptions)
     throw std::invalid_argument(message);
 #else

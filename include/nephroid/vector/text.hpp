@@ -2,6 +2,7 @@
 /// @file  Numbers and vectors as text, for error messages.
 #pragma once
 
+#include "nephroid/vector/error.hpp"
 #include "nephroid/vector/traits.hpp"
 
 #include <charconv>
@@ -11,7 +12,7 @@ namespace nephroid::detail {
 
 /// The shortest text that reads back as the same number; "nan", "inf".
 template <Scalar T>
-[[nodiscard]] std::string text_of(const T& x) {
+[[nodiscard]] NEPHROID_NOINLINE std::string text_of(const T& x) {
     char digits[32];
     const auto end = std::to_chars(digits, digits + sizeof digits, static_cast<double>(x)).ptr;
     return std::string(digits, end);
@@ -19,7 +20,7 @@ template <Scalar T>
 
 /// (x, y, z)
 template <Vector3 V>
-[[nodiscard]] std::string text_of(const V& v) {
+[[nodiscard]] NEPHROID_NOINLINE std::string text_of(const V& v) {
     using t = vector_traits<V>;
     std::string text(1, '(');
     text.append(text_of(scalar_t<V>(t::x(v)))).append(", ");

@@ -17,14 +17,14 @@ public:
     explicit constexpr Validator(const char* light) : light_(light) {}
 
     template <Vector3 V>
-    void finite(const char* name, const V& v) const {
+    NEPHROID_NOINLINE void finite(const char* name, const V& v) const {
         if (!all_finite(v))
             complain(name, text_of(v), "is not finite; pass world coordinates");
     }
 
     /// The vector made a unit one; it may be as short or long as the scalar type allows.
     template <Vector3 V>
-    [[nodiscard]] V direction(const char* name, const V& v) const {
+    [[nodiscard]] NEPHROID_NOINLINE V direction(const char* name, const V& v) const {
         using T = scalar_t<V>;
         using t = vector_traits<V>;
         finite(name, v);
@@ -34,7 +34,7 @@ public:
     }
 
     template <Scalar T>
-    void positive(const char* name, const T& x) const {
+    NEPHROID_NOINLINE void positive(const char* name, const T& x) const {
         if (!(x > T(0)) || !isfinite(x))
             complain(name, text_of(x), "is not positive and finite; pass world units");
     }
@@ -46,7 +46,7 @@ public:
 
     /// @param whose  such as "target's"
     template <Vector3 V>
-    void sphere(const char* whose, const std::optional<BoundingSphere<V>>& bounds) const {
+    NEPHROID_NOINLINE void sphere(const char* whose, const std::optional<BoundingSphere<V>>& bounds) const {
         if (!bounds)
             return;
         finite((std::string(whose) + " centre").c_str(), bounds->centre);
@@ -54,7 +54,7 @@ public:
     }
 
     template <Flux F>
-    void flux(const char* name, const F& f) const {
+    NEPHROID_NOINLINE void flux(const char* name, const F& f) const {
         const double power = flux_traits<F>::power(f);
         bool negative = !(power >= 0) || !std::isfinite(power);
         if constexpr (Vector3<F>) {
@@ -65,7 +65,7 @@ public:
             complain(name, "of power " + text_of(power), "is negative or not finite; pass what the light emits");
     }
 
-    [[noreturn]] void complain(const char* name, const std::string& value, const char* reason) const {
+    [[noreturn]] NEPHROID_NOINLINE void complain(const char* name, const std::string& value, const char* reason) const {
         invalid_argument(std::string("nephroid::") + light_ + ": " + name + " " + value + " " + reason);
     }
 
