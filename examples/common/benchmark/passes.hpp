@@ -60,7 +60,7 @@ void benchmark_order_in(const Effort& effort, const std::string& name, const S& 
             benchmark::DoNotOptimize(deposit);
         }
     };
-    detail::CoherentOrder order;
+    nephroid::detail::CoherentOrder order;
     const auto sort = [&] { benchmark::DoNotOptimize(order.sort(light, sequence, 0, photons, executor).data()); };
     const double items = double(photons);
     const auto t = seconds_per_item(effort, {{items, coherent}, {items, by_index}, {items, sort}});

@@ -8,7 +8,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <functional>
 #include <vector>
 
 using namespace nephroid;
@@ -18,10 +17,8 @@ namespace {
 
 using Pieces = SurfacePieces<glm::dvec3>;
 
-const TaskRunner one_by_one = [](std::size_t count, const std::function<void(std::size_t)>& task) {
-    for (std::size_t i = 0; i < count; ++i)
-        task(i);
-};
+SerialExecutor serial;
+const TaskRunner one_by_one(serial);
 
 /// @param surface  surface(u, v) -> PlaceOnSurface
 template <class Surface>
@@ -58,8 +55,8 @@ TEST_CASE("surface pieces: smooth surfaces are whole") {
     };
     CHECK(Pieces(points_on(ball), one_by_one).sizes() == std::vector<std::uint32_t>{4000});
     const auto wave = [](double u, double v) { // slopes up to 0.5, as those of water
-        const double slope = 0.5 * std::cos(40 * u), length = std::hypot(1.0, slope);
-        return PlaceOnSurface{{u, v, 0.0125 * std::sin(40 * u)}, {-slope / length, 0, 1 / length}};
+        const double slope = 0.5 * std::cos(40 * u), steep = std::hypot(1.0, slope);
+        return PlaceOnSurface{{u, v, 0.0125 * std::sin(40 * u)}, {-slope / steep, 0, 1 / steep}};
     };
     CHECK(Pieces(points_on(wave), one_by_one).sizes() == std::vector<std::uint32_t>{4000});
 }
