@@ -58,15 +58,9 @@ void diffuse(std::vector<P>& photons, const RelaxationOptions& options) {
     }
     FluxExchange<Cloud> exchange(cloud, options);
     const std::vector<T> guess(slots);
-    std::vector<T> radius(slots);
-    Neighbourhood<Cloud> neighbourhood;
-    for (std::uint32_t leaf = 0; leaf < cloud.tree().leaves().size(); ++leaf)
-        neighbourhood.for_each(cloud, leaf, options.neighbours + 1, guess, [&](std::size_t slot, auto found) {
-            radius[slot] = found.empty() ? T(0) : std::sqrt(found.back().distance2);
-            exchange.set_partners(slot, found);
-        });
+    exchange.find_partners(cloud, guess, executor);
     for (unsigned i = 0; i < options.iterations; ++i)
-        exchange.run(cloud, constraints, radius, options.flux_diffusion, executor);
+        exchange.run(cloud, constraints, options.flux_diffusion, executor);
     cloud.write_fluxes(photons, access_to<P>(), executor);
 }
 

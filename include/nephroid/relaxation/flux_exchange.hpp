@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/relaxation/flux_discontinuity.hpp"
+#include "nephroid/relaxation/neighbourhood.hpp"
 #include "nephroid/relaxation/options.hpp"
 #include "nephroid/relaxation/photon_cloud.hpp"
 #include "nephroid/relaxation/photon_constraint.hpp"
@@ -37,24 +38,30 @@ public:
         : neighbours_(options.neighbours), alpha_(options.alpha), beta_(options.beta),
           partners_(neighbours_ * cloud.tree().slots(), no_photon), next_(cloud.fluxes()) {}
 
-    /// Sets the photons that one exchanges flux with. Several threads may do so for different photons.
+    /// Finds the photons that each exchanges flux with where all are now, so that of each pair both are partners.
     ///
-    /// @param found  its nearest neighbours, nearest first; the last one ends the kernel, and is no partner
-    void set_partners(std::size_t slot, std::span<const Neighbour<T>> found) {
-        for (std::size_t k = 0; k < neighbours_; ++k)
-            partners_[slot * neighbours_ + k] = k + 1 < found.size() ? found[k].slot : no_photon;
+    /// @param guess  by slot: about how far the last of K + 1 neighbours lies; any
+    template <class E>
+    void find_partners(const Cloud& cloud, std::span<const T> guess, E& executor) {
+        radius_.assign(guess.begin(), guess.end());
+        for_each_leaf<Neighbourhood<Cloud>>(cloud.tree(), executor, [&](auto& around, std::uint32_t leaf) {
+            around.for_each(
+                cloud, leaf, neighbours_ + 1, radius_, [&](std::size_t slot, std::span<const Neighbour<T>> found) {
+                    radius_[slot] = found.empty() ? T(0) : sqrt(found.back().distance2);
+                    for (std::size_t k = 0; k < neighbours_; ++k) // the last one ends the kernel
+                        partners_[slot * neighbours_ + k] = k + 1 < found.size() ? found[k].slot : no_photon;
+                });
+        });
     }
 
-    /// Replaces all fluxes.
+    /// Replaces all fluxes, between the partners found last.
     ///
     /// @param constraints  by slot, or empty
-    /// @param radius       by slot: the distance to the last of the photons given to `set_partners`
     template <class E>
-    void run(Cloud& cloud, std::span<const PhotonConstraint<V>> constraints, std::span<const T> radius,
-             FluxDiffusion method, E& executor) {
+    void run(Cloud& cloud, std::span<const PhotonConstraint<V>> constraints, FluxDiffusion method, E& executor) {
         for_each_slot(cloud.tree(), executor, [&](std::size_t slot) {
-            next_[slot] = method == FluxDiffusion::conserving ? exchanged(cloud, constraints, radius, slot)
-                                                              : weighted_mean(cloud, constraints, radius, slot);
+            next_[slot] = method == FluxDiffusion::conserving ? exchanged(cloud, constraints, radius_, slot)
+                                                              : weighted_mean(cloud, constraints, radius_, slot);
         });
         cloud.fluxes().swap(next_);
     }
@@ -127,6 +134,7 @@ private:
     std::size_t neighbours_;
     double alpha_, beta_;                 ///< of eq. 8
     std::vector<std::uint32_t> partners_; // by slot, `neighbours_` for each
+    std::vector<T> radius_;               ///< by slot, of the last of its K + 1 neighbours
     std::vector<F> next_;
 };
 

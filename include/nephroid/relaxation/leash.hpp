@@ -27,6 +27,7 @@ public:
 
     /// A photon without a radius does not move at all.
     void set_radius(std::size_t slot, T radius) { radius_[slot] = radius; }
+    [[nodiscard]] T radius(std::size_t slot) const { return radius_[slot]; }
 
     /// Where a photon goes: to `to`, or nowhere if that is too far from where it began.
     template <Vector3 V>

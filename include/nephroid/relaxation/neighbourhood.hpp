@@ -10,28 +10,13 @@
 
 #include <algorithm>
 #include <span>
+#include <type_traits>
 
 namespace nephroid::detail {
 
 /// A search for n neighbours on a photon's own surface ends at this many times n photons of any surface: where more
 /// photons of other surfaces lie between, it finds fewer.
 inline constexpr std::size_t most_candidates = 128;
-
-/// Guesses how far `wanted` neighbours of each photon in a leaf reach, before any search: as if the leaf's photons
-/// filled the two longer sides of its box.
-template <class Tree, Scalar T>
-void guess_reach(const Tree& tree, const TreeLeaf& leaf, std::size_t wanted, std::vector<T>& reach) {
-    std::array<T, 3> side;
-    const T* const coordinates[3] = {tree.x(), tree.y(), tree.z()};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const T* const first = coordinates[axis] + leaf.first;
-        const auto [low, high] = std::minmax_element(first, first + leaf.size);
-        side[axis] = *high - *low;
-    }
-    std::sort(side.begin(), side.end());
-    const T area = side[2] * (std::max)(side[1], side[2] / T(leaf.size));
-    std::fill_n(reach.begin() + leaf.first, leaf.size, sqrt(T(wanted) * area / (pi<T> * T(leaf.size))));
-}
 
 template <class Cloud>
 class Neighbourhood {
@@ -45,18 +30,36 @@ public:
     ///
     /// @param radius  by slot: a guess of the distance to the last neighbour; nothing but the order of photons at the
     ///                same distance depends on it
+    /// @param visit   may return where it moves the photon: those of the leaf from the next but one on see it there
     template <class Visit>
     void for_each(const Cloud& cloud, std::uint32_t leaf, std::size_t count, std::span<const T> radius, Visit&& visit) {
         const TreeLeaf range = cloud.tree().leaves()[leaf];
         const T reach = reach_of(range, radius);
         gather(cloud, range, count, reach);
+        [[maybe_unused]] std::size_t moved_slot = range.first;
+        [[maybe_unused]] V moved_to = cloud.position(moved_slot);
         for (std::size_t slot = range.first; slot < range.first + range.size; ++slot) {
             const T guess = slack * radius[slot];
             const bool found = (guess < reach && find(cloud, slot, count, guess)) || find(cloud, slot, count, reach);
             if (!found)
                 find_farther(cloud, slot, count);
-            visit(slot, std::span<Neighbour<T>>(found_));
+            const std::span<Neighbour<T>> neighbours(found_);
+            if constexpr (std::is_void_v<std::invoke_result_t<Visit&, std::size_t, std::span<Neighbour<T>>>>) {
+                visit(slot, neighbours);
+            } else {
+                const V to = visit(slot, neighbours);
+                put(moved_slot, moved_to); // of the photon before, so that no search waits for the last force
+                moved_slot = slot, moved_to = to;
+            }
         }
+    }
+
+    /// Where a photon lies that may belong to the leaf at hand, and so may have moved.
+    [[nodiscard]] V position(const Cloud& cloud, std::size_t slot) const {
+        if (!in_leaf(slot))
+            return cloud.position(slot);
+        const std::size_t i = own_ + slot - leaf_.first;
+        return make_vector<V>(x_[i], y_[i], z_[i]);
     }
 
 private:
@@ -83,11 +86,16 @@ private:
                 std::minmax_element(coordinates[axis] + range.first, coordinates[axis] + range.first + range.size);
             box.low[axis] = *low - reach, box.high[axis] = *high + reach;
         }
-        size_ = 0;
+        size_ = own_ = 0;
+        leaf_ = range;
         // Photons that coincide have neighbours enough, and those of other leaves are no nearer.
         if (box.low == box.high && range.size > count)
             return append(tree, range, box);
-        tree.visit_leaves(box, [&](std::uint32_t leaf) { append(tree, tree.leaves()[leaf], box); });
+        tree.visit_leaves(box, [&](std::uint32_t leaf) {
+            if (tree.leaves()[leaf].first == range.first)
+                own_ = size_; // all of its photons lie in the box
+            append(tree, tree.leaves()[leaf], box);
+        });
     }
 
     void append(const PointTree<V>& tree, const TreeLeaf& leaf, const Box<T>& box) {
@@ -102,6 +110,12 @@ private:
                                 int(y <= box.high[1]) & int(z >= box.low[2]) & int(z <= box.high[2]));
         }
         size_ = size;
+    }
+
+    void put(std::size_t slot, const V& position) {
+        using t = vector_traits<V>;
+        const std::size_t i = own_ + slot - leaf_.first;
+        x_[i] = t::x(position), y_[i] = t::y(position), z_[i] = t::z(position);
     }
 
     void resize(std::size_t size) {
@@ -123,10 +137,21 @@ private:
         for (std::size_t i = 0; i < size_; ++i)
             distance2[i] = square(x[i] - px) + square(y[i] - py) + square(z[i] - pz);
         std::size_t hits = 0;
-        for (std::size_t i = 0; i < size_; ++i) {
+        const auto take = [&](std::size_t i) { // whether it lies within or not: cheaper than a branch
             hits_[hits] = std::uint32_t(i);
             hits += distance2[i] <= radius2;
+        };
+        std::size_t block = 0;
+        for (; block + 8 <= size_; block += 8) { // most eights lie outside as a whole
+            T least[4];
+            for (std::size_t i = 0; i < 4; ++i)
+                least[i] = (std::min)(distance2[block + i], distance2[block + 4 + i]);
+            if ((std::min)((std::min)(least[0], least[1]), (std::min)(least[2], least[3])) <= radius2)
+                for (std::size_t i = 0; i < 8; ++i)
+                    take(block + i);
         }
+        for (; block < size_; ++block)
+            take(block);
         if (hits <= count)
             return false;
         found_.clear();
@@ -135,17 +160,30 @@ private:
         return found_.size() == count;
     }
 
-    /// For lone photons: a search in the tree.
+    /// For lone photons: a search in the tree, which has the leaf's own photons where they were.
     void find_farther(const Cloud& cloud, std::size_t slot, std::size_t count) {
         for (std::size_t times = 2; times <= most_candidates; times *= 4) {
             candidates_.resize(times * count + 1);
             const std::size_t size = cloud.tree().nearest(cloud.position(slot), candidates_);
             found_.clear();
-            for (std::size_t i = 0; i < size; ++i)
-                insert(cloud, slot, count, candidates_[i]);
+            T farthest2(0);
+            for (const Neighbour<T>& candidate : std::span(candidates_).first(size)) {
+                farthest2 = (std::max)(farthest2, candidate.distance2);
+                if (!in_leaf(candidate.slot))
+                    insert(cloud, slot, count, candidate);
+            }
+            for (std::uint32_t own = leaf_.first; own < leaf_.first + leaf_.size; ++own) {
+                const T distance2 = length2(V(position(cloud, own) - cloud.position(slot)));
+                if (distance2 <= farthest2 || size < candidates_.size())
+                    insert(cloud, slot, count, {distance2, own});
+            }
             if (found_.size() == count || size < candidates_.size())
                 return;
         }
+    }
+
+    [[nodiscard]] bool in_leaf(std::size_t slot) const {
+        return slot >= leaf_.first && slot < leaf_.first + leaf_.size;
     }
 
     void insert(const Cloud& cloud, std::size_t slot, std::size_t count, const Neighbour<T>& neighbour) {
@@ -161,7 +199,8 @@ private:
         found_[i] = neighbour;
     }
 
-    std::size_t size_ = 0;
+    TreeLeaf leaf_{};
+    std::size_t size_ = 0, own_ = 0; ///< photons gathered, and from where on the leaf's own
     std::vector<T> x_, y_, z_, distance2_;
     std::vector<std::uint32_t> slots_, hits_;
     std::vector<Neighbour<T>> found_, candidates_;

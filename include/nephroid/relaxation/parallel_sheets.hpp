@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/relaxation/neighbourhood.hpp"
+#include "nephroid/relaxation/reach_guess.hpp"
 
 #include <algorithm>
 #include <span>

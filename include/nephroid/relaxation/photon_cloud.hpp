@@ -15,14 +15,16 @@
 namespace nephroid::detail {
 
 /// Calls task(scratch, leaf) for each leaf of a tree, some at a time on one thread, which share a `Scratch`.
+///
+/// @param first, step  leaves first, first + step, … alone
 template <class Scratch, class Tree, class E, class Task>
-void for_each_leaf(const Tree& tree, E& executor, const Task& task) {
+void for_each_leaf(const Tree& tree, E& executor, const Task& task, std::size_t first = 0, std::size_t step = 1) {
     constexpr std::size_t leaves_per_task = 32;
-    const std::size_t leaves = tree.leaves().size();
-    executor((leaves + leaves_per_task - 1) / leaves_per_task, [&](std::size_t i) {
+    const std::size_t leaves = tree.leaves().size(), per_task = leaves_per_task * step;
+    executor((leaves + per_task - 1) / per_task, [&](std::size_t i) {
         Scratch scratch;
-        const std::size_t end = (std::min)(leaves, (i + 1) * leaves_per_task);
-        for (std::size_t leaf = i * leaves_per_task; leaf < end; ++leaf)
+        const std::size_t end = (std::min)(leaves, (i + 1) * per_task);
+        for (std::size_t leaf = i * per_task + first; leaf < end; leaf += step)
             task(scratch, std::uint32_t(leaf));
     });
 }

@@ -6,8 +6,9 @@
 #include "nephroid/relaxation/flux_exchange.hpp"
 #include "nephroid/relaxation/leash.hpp"
 #include "nephroid/relaxation/neighbourhood.hpp"
+#include "nephroid/relaxation/photon_move.hpp"
 #include "nephroid/relaxation/pilot_choice.hpp"
-#include "nephroid/relaxation/repulsion.hpp"
+#include "nephroid/relaxation/reach_guess.hpp"
 #include "nephroid/relaxation/separation.hpp"
 #include "nephroid/relaxation/target_spacing.hpp"
 
@@ -21,8 +22,11 @@
 
 namespace nephroid::detail {
 
-/// Moves all photons at once, from a snapshot of their positions: in parallel, and to the same bits for any number of
-/// threads.
+/// Moves photons in turn: in parallel, and to the same bits for any number of threads.
+///
+/// The tree's leaves have four turns, one after the other. Within a leaf photons move one after another, and see where
+/// those before them went; leaves that share a turn see each other as they were before it, and seldom touch
+/// [include/nephroid/README.md, "Photons in turn"].
 template <class Cloud>
 class Relaxer {
 public:
@@ -36,7 +40,7 @@ public:
     template <class E>
     Relaxer(Cloud& cloud, const RelaxationOptions& options, E& executor)
         : cloud_(&cloud), options_(&options), reach_(cloud.tree().slots()), radius_(reach_.size()),
-          next_radius_(reach_.size()) {
+          next_radius_(reach_.size()), leash_(cloud.tree(), T(options.leash)), next_(leash_.starts()) {
         if (options.constrain)
             constrain(executor);
         pilot_ = {options.pilot_neighbours, false, true};
@@ -46,8 +50,7 @@ public:
             target_.emplace(cloud, pilot_.neighbours, constraints_, executor);
         if (options.flux_diffusion != FluxDiffusion::none)
             exchange_.emplace(cloud, options);
-        for (const TreeLeaf& leaf : cloud.tree().leaves())
-            guess_reach(cloud.tree(), leaf, search_count(), reach_);
+        measure_starts(executor);
     }
 
     [[nodiscard]] const PilotChoice& pilot() const { return pilot_; }
@@ -65,43 +68,46 @@ public:
     /// @return  the sum over all photons of the length of the move over the radius of the neighbourhood
     template <class E, class Project>
     double step(unsigned iteration, E& executor, const Project& project) {
-        if (iteration == 0) {
-            leash_.emplace(cloud_->tree(), T(options_->leash));
-            next_ = leash_->starts();
-        }
         const T relaxation =
             T(over_relaxation(iteration, options_->iterations, options_->over_relaxation, options_->final_relaxation));
         const T fraction = T(step_fraction(iteration, options_->iterations, options_->final_step));
         std::vector<double> moves(cloud_->tree().leaves().size());
-        const auto advance = [&](std::uint32_t leaf, std::size_t slot, std::span<Neighbour<T>> found) {
+        const auto advance = [&](const auto& around, std::uint32_t leaf, std::size_t slot,
+                                 std::span<Neighbour<T>> found) -> V {
             const V from = cloud_->position(slot);
-            const std::span<const Neighbour<T>> pushing = in_spacings(slot, found);
+            Push<Cloud> push{slot, in_spacings(slot, found), T(0), T(0), false};
             // With fewer than K + 1 others there is no disc: the photon stays.
-            const bool alone = pushing.size() < std::size_t(options_->neighbours + 1);
-            T radius = alone ? T(0) : sqrt(pushing.back().distance2);
-            const bool heap = !alone && !(radius > T(0));
-            if (heap)
-                radius = distance_to_others(*cloud_, slot);
-            V to = from;
-            if (radius > T(0)) {
-                if (iteration == 0)
-                    leash_->set_radius(slot, radius);
-                const T limit_radius = iteration > 0 && radius_[slot] > T(0) ? radius_[slot] : radius;
-                const V step = fraction * move(slot, pushing, radius, relaxation, limit_radius, heap);
-                to = leash_->held(slot, from, project(slot, V(from + step)));
-                moves[leaf] += double(length(V(to - from)) / radius);
-            }
-            using t = vector_traits<V>;
-            next_[0][slot] = t::x(to), next_[1][slot] = t::y(to), next_[2][slot] = t::z(to);
+            const bool alone = push.neighbours.size() < std::size_t(options_->neighbours + 1);
+            push.radius = alone ? T(0) : sqrt(push.neighbours.back().distance2);
+            push.heap = !alone && !(push.radius > T(0));
+            if (push.heap)
+                push.radius = leash_.radius(slot); // those that left the heap before are too near to measure by
+            if (!(push.radius > T(0)))
+                return from;
+            push.limit_radius = iteration > 0 && radius_[slot] > T(0) ? radius_[slot] : push.radius;
+            const PhotonConstraint<V>* const constraint = constraints_.empty() ? nullptr : &constraints_[slot];
+            const V move = fraction * move_of(*cloud_, around, push, relaxation, constraint, T(options_->rho));
+            const V to = leash_.held(slot, from, project(slot, V(from + move)));
+            moves[leaf] += double(length(V(to - from)) / push.radius);
+            return to;
         };
-        for_each_neighbourhood(executor, advance);
-        exchange_flux(executor);
-        cloud_->tree().refit(next_, executor);
+        for (std::uint32_t turn = 0; turn < turns; ++turn) {
+            for_each_neighbourhood(turn, executor, advance);
+            cloud_->tree().refit(next_, executor);
+            keep_moves(turn, executor);
+        }
+        if (exchange_) {
+            exchange_->find_partners(*cloud_, next_radius_, executor);
+            exchange_->run(*cloud_, constraints_, options_->flux_diffusion, executor);
+        }
         radius_.swap(next_radius_);
         return std::accumulate(moves.begin(), moves.end(), 0.0);
     }
 
 private:
+    /// Consecutive leaves lie side by side: those that share a turn are seldom neighbours.
+    static constexpr std::uint32_t turns = 4;
+
     template <class E>
     void constrain(E& executor) {
         FeatureDetector<Cloud> detector(*cloud_, *options_);
@@ -112,33 +118,58 @@ private:
                       [&](std::size_t slot) { constraints_[slot] = detector.constraint(slot); });
     }
 
-    /// Evens out the fluxes between the neighbours found last.
+    /// Finds the disc of K + 1 neighbours about where each photon begins: what its leash is measured by.
     template <class E>
-    void exchange_flux(E& executor) {
-        if (exchange_)
-            exchange_->run(*cloud_, constraints_, next_radius_, options_->flux_diffusion, executor);
+    void measure_starts(E& executor) {
+        const PointTree<V>& tree = cloud_->tree();
+        for_each_leaf<Neighbourhood<Cloud>>(tree, executor, [&](auto& around, std::uint32_t leaf) {
+            guess_reach(tree, tree.leaves()[leaf], search_count(), reach_);
+            around.for_each(*cloud_, leaf, search_count(), reach_,
+                            [&](std::size_t slot, std::span<Neighbour<T>> found) {
+                                reach_[slot] = found.empty() ? T(0) : sqrt(found.back().distance2);
+                                if (found.size() <= options_->neighbours)
+                                    return; // no disc: the photon stays
+                                const T radius = sqrt(found[options_->neighbours].distance2);
+                                leash_.set_radius(slot, radius > T(0) ? radius : distance_to_others(*cloud_, slot));
+                            });
+        });
     }
 
     /// How many neighbours are searched for: with target spacings twice as many as push a photon, as some of the
     /// farther ones may be nearer in units of the spacing.
     [[nodiscard]] std::size_t search_count() const { return (target_ ? 2 : 1) * std::size_t(options_->neighbours + 1); }
 
-    /// Calls visit(leaf, slot, neighbours) for all photons, with neighbours that `visit` may reorder; keeps the radii
-    /// and the partners of flux exchange.
+    /// Calls visit(neighbourhood, leaf, slot, neighbours) for the photons that have this turn, with neighbours that
+    /// `visit` may reorder, and takes down where it moves them; keeps the radii.
     template <class E, class Visit>
-    void for_each_neighbourhood(E& executor, const Visit& visit) {
+    void for_each_neighbourhood(std::uint32_t turn, E& executor, const Visit& visit) {
         const std::size_t pushing = options_->neighbours + 1;
-        for_each_leaf<Neighbourhood<Cloud>>(cloud_->tree(), executor, [&](auto& neighbourhood, std::uint32_t leaf) {
-            neighbourhood.for_each(*cloud_, leaf, search_count(), reach_,
-                                   [&](std::size_t slot, std::span<Neighbour<T>> found) {
-                                       const auto first = found.first((std::min)(pushing, found.size()));
-                                       next_radius_[slot] = found.empty() ? T(0) : sqrt(first.back().distance2);
-                                       reach_[slot] = found.empty() ? T(0) : sqrt(found.back().distance2);
-                                       if (exchange_)
-                                           exchange_->set_partners(slot, first);
-                                       visit(leaf, slot, found);
-                                   });
-        });
+        const auto move_leaf = [&](auto& around, std::uint32_t leaf) {
+            around.for_each(*cloud_, leaf, search_count(), reach_,
+                            [&](std::size_t slot, std::span<Neighbour<T>> found) -> V {
+                                const std::size_t last = (std::min)(pushing, found.size());
+                                next_radius_[slot] = last == 0 ? T(0) : sqrt(found[last - 1].distance2);
+                                reach_[slot] = found.empty() ? T(0) : sqrt(found.back().distance2);
+                                const V to = visit(around, leaf, slot, found);
+                                using t = vector_traits<V>;
+                                next_[0][slot] = t::x(to), next_[1][slot] = t::y(to), next_[2][slot] = t::z(to);
+                                return to;
+                            });
+        };
+        for_each_leaf<Neighbourhood<Cloud>>(cloud_->tree(), executor, move_leaf, turn, turns);
+    }
+
+    /// After a turn `next_` has all positions but those of before it: brings these up to date.
+    template <class E>
+    void keep_moves(std::uint32_t turn, E& executor) {
+        const PointTree<V>& tree = cloud_->tree();
+        const T* const moved[3] = {tree.x(), tree.y(), tree.z()};
+        const auto copy_leaf = [&](NoScratch, std::uint32_t leaf) {
+            const TreeLeaf range = tree.leaves()[leaf];
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                std::copy_n(moved[axis] + range.first, range.size, next_[axis].begin() + std::ptrdiff_t(range.first));
+        };
+        for_each_leaf<NoScratch>(tree, executor, copy_leaf, turn, turns);
     }
 
     /// Sorts the neighbours found by their distances in units of the target spacing.
@@ -154,38 +185,13 @@ private:
         return found.first((std::min)(std::size_t(options_->neighbours + 1), found.size()));
     }
 
-    /// The force on a photon [eq. 1 and 3], constrained and damped [eq. 10 and 11].
-    ///
-    /// @param found         nearest first; the last one gives the radius and does not push
-    /// @param limit_radius  r_p of eq. 11: the radius of the iteration before, which avoids artefacts
-    /// @param heap          the neighbours lie where the photon does: a feature, but one that would hold them for ever
-    [[nodiscard]] V move(std::size_t slot, std::span<const Neighbour<T>> found, T radius, T relaxation, T limit_radius,
-                         bool heap) const {
-        const V position = cloud_->position(slot);
-        V force = zero_vector<V>();
-        for (std::size_t k = 0; k + 1 < found.size(); ++k) {
-            const auto [distance2, other] = found[k];
-            force = force + (distance2 > T(0) ? repulsion<V>(position - cloud_->position(other), sqrt(distance2),
-                                                             radius * relaxation)
-                                              : radius * relaxation * separation_direction(*cloud_, slot, other));
-        }
-        force = in_tangent_plane<V>(T(1) / T(options_->neighbours) * force, cloud_->normal(slot));
-        if (heap) // or the damping, which takes them for far too strong, would leave most where they are
-            force = (T(0.25) * radius / (std::max)(T(0.25) * radius, T(length(force)))) * force;
-        else if (!constraints_.empty() && found.front().distance2 > T(0)) // two in one place part along an edge or not
-            force = constrained(force, constraints_[slot]);
-        if (options_->rho > 0)
-            force = diffusion_limit<T>(length2(force), square(limit_radius), T(options_->rho)) * force;
-        return force;
-    }
-
     Cloud* cloud_;
     const RelaxationOptions* options_;
     std::vector<PhotonConstraint<V>> constraints_; // by slot, as all of these; empty without constraints
     std::vector<T> reach_;                         ///< distance of the last neighbour that the last search found
     std::vector<T> radius_, next_radius_;          ///< of the disc of K + 1
-    std::array<std::vector<T>, 3> next_;           ///< positions
-    std::optional<Leash<T>> leash_;
+    Leash<T> leash_;
+    std::array<std::vector<T>, 3> next_; ///< positions
     std::optional<TargetSpacing<Cloud>> target_;
     std::optional<FluxExchange<Cloud>> exchange_;
     PilotChoice pilot_{0, false, true};

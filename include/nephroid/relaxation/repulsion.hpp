@@ -22,7 +22,7 @@ namespace nephroid::detail {
 }
 
 /// The fraction of its force that a photon follows: from 1 at the first iteration to `final_step` at the last, in equal
-/// steps. Ours, for photons that all move at once.
+/// steps. Ours, for over-relaxed photons, which do not come to rest.
 [[nodiscard]] inline double step_fraction(unsigned iteration, unsigned iterations, double final_step) {
     return iterations > 1 ? 1 - (1 - final_step) * iteration / (iterations - 1) : 1;
 }

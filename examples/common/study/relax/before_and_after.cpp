@@ -13,12 +13,13 @@ namespace nephroid::examples::study::relax {
 namespace {
 
 [[nodiscard]] PhotonMapLooks looks_at(const Subject& subject, const std::vector<StoredPhoton>& photons,
-                                      const Options& options, bool sweep, ThreadExecutor& threads) {
+                                      const Options& options, const std::vector<std::size_t>& neighbours, bool sweep,
+                                      ThreadExecutor& threads) {
     PhotonMapLooks result;
     Stopwatch stopwatch;
     const Map map = map_of(photons);
     result.build_seconds = stopwatch.lap();
-    for (const std::size_t k : options.neighbours)
+    for (const std::size_t k : neighbours)
         result.looks.push_back(look(subject, map, k, options.kernel, threads));
     if (sweep && subject.truth) {
         const BestNeighbours best = best_neighbours(subject, map, options.sweep, options.kernel, threads);
@@ -36,7 +37,7 @@ namespace {
 BeforeAndAfter before_and_after(const Subject& subject, const Options& options, ThreadExecutor& threads) {
     BeforeAndAfter result;
     result.threads = threads.threads();
-    result.before = looks_at(subject, subject.photons, options, true, threads);
+    result.before = looks_at(subject, subject.photons, options, options.neighbours, true, threads);
 
     const auto access = photon_access(&StoredPhoton::position, &StoredPhoton::normal, &StoredPhoton::flux);
     if (options.relaxation.constrain)
@@ -50,7 +51,10 @@ BeforeAndAfter before_and_after(const Subject& subject, const Options& options, 
         result.relaxation = nephroid::relax(result.relaxed, access, options.relaxation, threads);
     result.relaxation_seconds = stopwatch.lap();
 
-    result.after = looks_at(subject, result.relaxed, options, false, threads);
+    std::vector<std::size_t> neighbours = options.neighbours;
+    if (neighbours.empty())
+        neighbours.push_back(result.relaxation.estimate_neighbours);
+    result.after = looks_at(subject, result.relaxed, options, neighbours, false, threads);
     return result;
 }
 

@@ -16,9 +16,11 @@ namespace {
 
 /// Relaxes the subject and adds what comes of it to the report.
 /// @return  its row of the verdict, if the truth is known
-[[nodiscard]] std::optional<TableRow> add_subject(Report& report, const Options& options, const Subject& subject,
-                                                  ThreadExecutor& threads) {
-    const std::string name = name_of_subject(options);
+[[nodiscard]] std::optional<TableRow> add_subject(Report& report, const Options& options, bool several_sequences,
+                                                  const Subject& subject, ThreadExecutor& threads) {
+    std::string name = name_of_subject(options);
+    if (several_sequences)
+        name += std::string("-") + name_of(options.sequence);
     const BeforeAndAfter measured = before_and_after(subject, options, threads);
     Page& page = report.page();
     page.heading(name);
@@ -62,7 +64,8 @@ void Command::run(const std::string& command) const {
     for (std::size_t i = 0; i < all.size(); ++i) {
         if (i > 0)
             subject = make_subject(all[i], threads);
-        if (auto row = add_subject(report, all[i], subject, threads))
+        const bool several_sequences = all.front().sequence != all.back().sequence;
+        if (auto row = add_subject(report, all[i], several_sequences, subject, threads))
             verdicts.push_back(std::move(*row));
     }
     if (!verdicts.empty())

@@ -19,16 +19,25 @@ const Names<FluxDiffusion> diffusions = {{"none", FluxDiffusion::none},
                                          {"conserving", FluxDiffusion::conserving},
                                          {"weighted-mean", FluxDiffusion::weighted_mean}};
 
+/// "a,b,c" as its words.
+[[nodiscard]] std::vector<std::string> words(const std::string& list) {
+    std::vector<std::string> words;
+    for (std::size_t begin = 0; begin <= list.size();) {
+        const std::size_t end = (std::min)(list.find(',', begin), list.size());
+        words.push_back(list.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return words;
+}
+
 /// "10,20,50" as numbers of neighbours, in order and each once.
 [[nodiscard]] std::vector<std::size_t> counts(const std::string& option, const std::string& list) {
     std::vector<std::size_t> numbers;
-    for (std::size_t begin = 0; begin <= list.size();) {
-        const std::size_t end = (std::min)(list.find(',', begin), list.size());
-        const std::uint64_t number = whole_number(option, list.substr(begin, end - begin), 2);
+    for (const std::string& word : words(list)) {
+        const std::uint64_t number = whole_number(option, word, 2);
         if (number > 100'000)
             throw UsageError(option + ": " + std::to_string(number) + " neighbours are more than 100000");
         numbers.push_back(static_cast<std::size_t>(number));
-        begin = end + 1;
     }
     std::ranges::sort(numbers);
     numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -60,7 +69,8 @@ Arguments::Arguments(CLI::App& app) : rho_(RelaxationOptions{}.rho) {
     app.add_flag("--timing", timing_,
                  "Instead of pictures: what relaxing so many random photons of the pattern uniform costs");
     app.add_option("--photons", photons_, "In a pattern's picture, or caustic photons of a scene [50000]");
-    app.add_option("--sequence", sequence_, "halton|sobol|random: where the photons come from [halton]");
+    app.add_option("--sequence", sequence_,
+                   "halton|sobol|random: where the photons come from, or several, such as random,halton [halton]");
     app.add_option("--seed", seed_, "Of the sequence [0]");
     app.add_option("--iterations", iterations_, "Of the relaxation [20]; random photons want 30 to 50");
     app.add_option("--keep-density", keep_,
@@ -72,7 +82,8 @@ Arguments::Arguments(CLI::App& app) : rho_(RelaxationOptions{}.rho) {
         ->expected(2);
     app.add_option("--rho", rho_, "Moves of so many radii are halved; 0 does not limit them [0.3]");
     app.add_option("--flux-diffusion", diffusion_, "none|conserving|weighted-mean [none]");
-    app.add_option("--neighbours", neighbours_, "k of the pictures [10,20,50,250]");
+    app.add_option("--neighbours", neighbours_,
+                   "k of the pictures [10,20,50,250]; chosen: what the relaxation reports, for the relaxed map alone");
     app.add_option("--kernel", kernel_, "epanechnikov|biweight: of all pictures [epanechnikov, as in the paper]");
     app.add_option("--sweep", sweep_, "k among which the unrelaxed map's best is looked for [10 to 500, times 1.4]");
     app.add_option("--size", size_,
@@ -91,7 +102,8 @@ std::vector<Options> Arguments::read() const {
     options.timing = timing_;
     options.photons = whole_number("--photons", photons_, 1);
     options.seed = whole_number("--seed", seed_, 0);
-    options.sequence = chosen("--sequence", sequence_, sequence_names());
+    const std::vector<std::string> sequences = words(sequence_);
+    options.sequence = chosen("--sequence", sequences.front(), sequence_names());
     if (chosen("--keep-density", keep_, switches))
         options.relaxation = RelaxationOptions::keeping_density();
     options.relaxation.rho = rho_;
@@ -110,7 +122,8 @@ std::vector<Options> Arguments::read() const {
         options.relaxation.alpha = features_[0];
         options.relaxation.beta = features_[1];
     }
-    options.neighbours = counts("--neighbours", neighbours_);
+    if (neighbours_ != "chosen")
+        options.neighbours = counts("--neighbours", neighbours_);
     options.sweep = counts("--sweep", sweep_);
     const PictureSize pixels = picture_size(size_);
     options.width = pixels.width;
@@ -121,9 +134,15 @@ std::vector<Options> Arguments::read() const {
     if (!spectrum_.empty())
         options.spectrum = {spectrum_[0], spectrum_[1], spectrum_[2], spectrum_[3]};
     check(options);
-    std::vector<Options> each(timing_ ? 1 : subjects_.size(), options);
-    for (std::size_t i = 0; i < subjects_.size() && i < each.size(); ++i)
-        each[i].subject = subjects_[i];
+    if (timing_)
+        return {options};
+    std::vector<Options> each;
+    for (const std::string& sequence : sequences)
+        for (const std::string& subject : subjects_) {
+            options.sequence = chosen("--sequence", sequence, sequence_names());
+            options.subject = subject;
+            each.push_back(options);
+        }
     return each;
 }
 

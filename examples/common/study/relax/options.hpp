@@ -24,7 +24,7 @@ struct Options {
     SequenceKind sequence = SequenceKind::halton;
     std::uint64_t seed = 0;
     RelaxationOptions relaxation;                 ///< with as many iterations as asked for
-    std::vector<std::size_t> neighbours;          ///< of the pictures
+    std::vector<std::size_t> neighbours;          ///< of the pictures; none: as many as `relax` reports, relaxed alone
     LookKernel kernel = LookKernel::epanechnikov; ///< of all of them
     std::vector<std::size_t> sweep;        ///< of the search for the unrelaxed map's best, where the truth is known
     std::size_t width = 512, height = 512; ///< pixels
@@ -43,7 +43,8 @@ public:
     Arguments(const Arguments&) = delete;
     Arguments& operator=(const Arguments&) = delete;
 
-    /// What was asked for, subject by subject; one without a name where costs are asked for. Throws UsageError.
+    /// What was asked for, subject by subject and for each its sequences; one without a name where costs are asked for.
+    /// Throws UsageError.
     [[nodiscard]] std::vector<Options> read() const;
 
 private:

@@ -14,7 +14,7 @@ namespace nephroid::examples::study::relax {
 
 namespace {
 
-constexpr std::array names = {"uniform", "ellipse-and-bars"};
+constexpr std::array names = {"uniform", "ellipse-and-bars", "soft-disc", "sines"};
 
 struct Ellipse {
     double x, y; ///< centre
@@ -73,6 +73,25 @@ constexpr std::array bars = {Bar{0.58, 0.66, 0.15, 0.85}, Bar{0.78, 0.86, 0.15, 
         {{"bars", 0.1 / mean, 1 / mean, std::move(places)}, {"ellipse", 0.1 / mean, 1 / mean, ellipse.places(240)}}};
 }
 
+/// A bright disc without an edge.
+[[nodiscard]] double soft_disc(double x, double y) {
+    return 0.15 + 0.85 / (1 + std::exp((std::hypot(x - 0.5, y - 0.5) - 0.25) / 0.03));
+}
+
+/// Waves along both axes: 1/2 on average over the unit square, which holds three of each.
+[[nodiscard]] double sines(double x, double y) {
+    return 0.5 + 0.4 * std::sin(6 * std::numbers::pi * x) * std::sin(6 * std::numbers::pi * y);
+}
+
+/// Of the unit square, by its 512² midpoints.
+[[nodiscard]] double mean_of(double (*density)(double, double)) {
+    constexpr int side = 512;
+    double sum = 0;
+    for (int i = 0; i < side * side; ++i)
+        sum += density((i % side + 0.5) / side, (i / side + 0.5) / side);
+    return sum / (side * side);
+}
+
 } // namespace
 
 std::string pattern_names() {
@@ -87,6 +106,10 @@ bool is_pattern(const std::string& name) { return std::ranges::find(names, name)
 Pattern pattern(const std::string& name) {
     if (name == names[1])
         return ellipse_and_bars();
+    if (name == names[2])
+        return {soft_disc, mean_of(soft_disc), {}};
+    if (name == names[3])
+        return {sines, 0.5, {}};
     return {[](double, double) { return 1.0; }, 1, {}};
 }
 

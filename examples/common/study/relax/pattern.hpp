@@ -17,12 +17,13 @@ struct Pattern {
     std::vector<Edge> edges;                           ///< whose sides are irradiances, 1 on average
 };
 
-/// "uniform, ellipse-and-bars"
+/// "uniform, ellipse-and-bars, soft-disc, sines"
 [[nodiscard]] std::string pattern_names();
 
 [[nodiscard]] bool is_pattern(const std::string& name);
 
 /// uniform: density 1. ellipse-and-bars: an ellipse and two upright bars at ten times the density of what is around.
+/// soft-disc: a disc whose brim falls off over a tenth of the square. sines: waves along both axes.
 /// Source of the second: Schjøth, Olsen and Sporring 2006; Spencer and Jones 2009, Figure 10.
 [[nodiscard]] Pattern pattern(const std::string& name);
 
