@@ -2,6 +2,7 @@
 /// @file  Renders a caustic, built-in or from a glTF file, by photon differential splatting and says how wrong it is.
 #include "common/caustics/builtin.hpp"
 #include "common/caustics/file_scene.hpp"
+#include "common/caustics/interrupt.hpp"
 #include "common/image/file.hpp"
 #include "common/image/pfm.hpp"
 #include "common/image/png.hpp"
@@ -16,6 +17,7 @@ int main(int argc, char** argv) {
         auto options = read_options(argc, argv);
         if (!options)
             return 0;
+        note_interrupts();
         require_writable_image(options->output);
         if (options->json)
             require_writable(*options->json);
@@ -31,6 +33,11 @@ int main(int argc, char** argv) {
             write_file(*options->json, json_text(*options, rendering.report));
         print_table(std::cout, *options, rendering.report);
         std::cout << "picture: " << options->output.string() << '\n';
+        if (rendering.report.interrupted) {
+            std::cerr << "caustics: interrupted; the picture has " << rendering.report.statistics.emitted.photons
+                      << " photons\n";
+            return interrupted_status();
+        }
         return 0;
     } catch (const UsageError& error) {
         std::cerr << "caustics: " << error.what() << '\n';

@@ -13,7 +13,8 @@
 namespace nephroid::examples {
 
 struct DirectLightOptions {
-    unsigned shadow_rays = 4; ///< for each vertex and area lamp, > 0
+    unsigned shadow_rays = 4;       ///< for each vertex and area lamp, > 0
+    unsigned environment_rays = 32; ///< for each vertex and environment, > 0
     std::uint64_t seed = 0;
 };
 
@@ -79,6 +80,9 @@ public:
             sum = sum + from_lamp(vertex, lamp);
         for (std::size_t i = 0; i < areas_.size(); ++i)
             sum = sum + from_area(vertex, areas_[i], hash_bits(hash_bits(options_.seed, i), index));
+        for (std::size_t i = 0; i < lamps_.environments.size(); ++i)
+            sum = sum + from_environment(vertex, *lamps_.environments[i],
+                                         hash_bits(hash_bits(options_.seed, areas_.size() + i), index));
         return sum;
     }
 
@@ -124,6 +128,33 @@ private:
         return lamp.radiance() * (sum * lamp.area() / T(options_.shadow_rays));
     }
 
+    /// Half of the rays by where light comes from, half by the cosine, each weighed by both densities (the balance
+    /// heuristic of Veach and Guibas 1995). A sun needs the first alone, the same light from everywhere the second.
+    [[nodiscard]] F from_environment(const EyeVertex<T, F>& vertex, const Environment<T, F>& environment,
+                                     std::uint64_t seed) const {
+        constexpr double golden_ratio = 0.6180339887498949;
+        const double by_light = environment.is_lamp() ? 1 : environment.is_constant() ? 0 : 0.5;
+        const unsigned count = environment.is_lamp() ? options_.shadow_rays : options_.environment_rays;
+        const double shift = uniform_from_bits<double>(hash_bits(seed, 0));
+        const Frame<Vec3<T>> frame = frame_about(vertex.shading_normal);
+        F sum = flux_traits<F>::zero();
+        for (unsigned k = 0; k < count; ++k) {
+            const double u1 = (k + uniform_from_bits<double>(hash_bits(seed, k + 1))) / count;
+            const double next = shift + k * golden_ratio, u2 = next - std::floor(next);
+            const Vec3<T> direction =
+                u1 < by_light ? environment.sample(u1 / by_light, u2).towards
+                              : cosine_direction(vertex.shading_normal, frame,
+                                                 concentric_disk(T((u1 - by_light) / (1 - by_light)), T(u2)));
+            const T cos = cosine(vertex, direction);
+            if (!(cos > T(0)) || shadowed(vertex, direction, std::numeric_limits<T>::infinity()))
+                continue;
+            const double density = (by_light > 0 ? by_light * environment.density(direction) : 0) +
+                                   (1 - by_light) * double(cos) / pi<double>;
+            sum = sum + environment.radiance(direction) * grey<F>(double(cos) / (density * count));
+        }
+        return sum;
+    }
+
     [[nodiscard]] static T cosine(const EyeVertex<T, F>& vertex, const Vec3<T>& to_lamp) {
         return dot(to_lamp, vertex.normal) > T(0) ? dot(to_lamp, vertex.shading_normal) : T(0);
     }
@@ -152,7 +183,8 @@ template <class T, Flux F, Executor E>
     executor((reflected.size() + chunk - 1) / chunk, [&](std::size_t part) {
         const std::size_t last = (std::min)((part + 1) * chunk, reflected.size());
         for (std::size_t i = part * chunk; i < last; ++i)
-            reflected[i] = eye.vertices[i].weight * light.irradiance(eye.vertices[i], i);
+            reflected[i] =
+                eye.vertices[i].weight * (light.irradiance(eye.vertices[i], i) * eye.vertices[i].diffuse_share);
     });
     std::vector<F> picture = eye.emitted;
     for (std::size_t i = 0; i < reflected.size(); ++i)

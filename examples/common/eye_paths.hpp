@@ -11,6 +11,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
+#include <type_traits>
 #include <vector>
 
 namespace nephroid::examples {
@@ -26,6 +28,9 @@ struct EyeVertex {
     F weight;               ///< throughput of the path from the camera × albedo/π / samples, 1 / steradian
     /// Of the sample's part of the pixel, where the camera sees it directly; not known through mirrors and glass.
     PixelFootprint<Vec3<T>> footprint{Vec3<T>(T(0)), Vec3<T>(T(0))};
+    /// Of the light that falls here, how much meets the diffuse part of a mixture. Photons choose that part by chance,
+    /// so that what they leave has this factor already; light that comes straight from a lamp has not.
+    T diffuse_share = T(1);
 };
 
 struct EyePathOptions {
@@ -41,6 +46,10 @@ struct EyePaths {
     std::vector<F> emitted;                ///< radiance of emitters as each pixel sees them
     std::size_t rays = 0;
 };
+
+/// The radiance that a ray sees which meets nothing, by its direction.
+template <class T, Flux F>
+using Background = std::function<F(const Vec3<T>&)>;
 
 namespace detail {
 
@@ -60,8 +69,9 @@ template <class T, Flux F>
 class EyePathTracer {
 public:
     EyePathTracer(const Scene<T, F>& scene, const Camera<T>& camera, const EyePathOptions& options, const Medium& start,
-                  EyePaths<T, F>& result)
-        : scene_(scene), camera_(camera), options_(options), start_(start), grid_(options.samples), result_(result) {}
+                  const Background<T, F>& background, EyePaths<T, F>& result)
+        : scene_(scene), camera_(camera), options_(options), start_(start), background_(background),
+          grid_(options.samples), result_(result) {}
 
     /// @param film_x, film_y  where the ray goes through the film, pixels
     /// @param first_pixel     the one that `emitted` starts with in the result
@@ -76,8 +86,11 @@ public:
             ++result_.rays;
             const auto hit = scene_.intersect(path.origin, path.direction, path.contacts.t_min(),
                                               std::numeric_limits<T>::infinity(), path.contacts);
-            if (!hit)
+            if (!hit) {
+                if (background_)
+                    shine(pixel - first_pixel, path.throughput, background_(path.direction));
                 continue;
+            }
             const T slope = dot(path.direction, hit->geometric_normal);
             if (path.contacts.is_here(hit->distance, slope) && hit->surface == path.left &&
                 (slope > T(0)) == path.contacts.leaves_along_normal()) { // the triangle beside, at their edge
@@ -90,21 +103,56 @@ public:
 
             const Material<F>& material = scene_.material(*hit);
             const bool from_front = slope < T(0);
-            if (material.emits() && (from_front || material.emits_on_both_sides)) {
-                F& emitted = result_.emitted[pixel - first_pixel];
-                emitted = emitted + path.throughput * material.emission * grey<F>(1.0 / options_.samples);
-            }
-            if (material.surface == Surface::diffuse)
-                see(*hit, path, pixel, from_front ? T(1) : T(-1));
+            if (material.emits() && (from_front || material.emits_on_both_sides))
+                shine(pixel - first_pixel, path.throughput, material.emission);
+            const T side = from_front ? T(1) : T(-1);
+            if (material.is_mixture())
+                part(*hit, path, pixel, side);
+            else if (material.surface == Surface::diffuse)
+                see(*hit, path, pixel, side, T(1));
             else if (material.is_specular() && path.depth < options_.max_depth)
-                bend(*hit, path, from_front ? T(1) : T(-1));
+                bend(*hit, path, side);
         }
     }
 
 private:
-    void see(const Hit<T>& hit, const EyePath<T, F>& path, std::uint32_t pixel, T side) {
+    void shine(std::size_t pixel, const F& throughput, const F& radiance) {
+        F& emitted = result_.emitted[pixel];
+        emitted = emitted + throughput * radiance * grey<F>(1.0 / options_.samples);
+    }
+
+    /// Follows what a mixture reflects and lets through, and sees its diffuse part.
+    ///
+    /// @param side  as in `bend`
+    void part(const Hit<T>& hit, EyePath<T, F> path, std::uint32_t pixel, T side) {
+        const Material<F>& material = scene_.material(hit);
+        const typename Scene<T, F>::Shares share = scene_.shares(material, hit, path.direction, path.medium);
+        const bool goes_on = path.depth < options_.max_depth;
+        if (goes_on && share.missed > T(0))
+            this->go_on(hit, path, path.direction, true, grey<F>(double(share.missed)), path.medium);
+        const T covered = T(1) - share.missed;
+        if (!(covered > T(0)))
+            return;
+        if (material.passes_light())
+            if (const auto at = scene_.interface(material, hit, path.direction, path.medium); !at.is_real) {
+                path.throughput = path.throughput * grey<F>(double(covered));
+                pass(hit, path, at.beyond);
+                return;
+            }
+        if (material.is_diffuse()) {
+            EyePath<T, F> seen = path;
+            seen.throughput = seen.throughput * grey<F>(double(T(1) - share.reflected / covered));
+            see(hit, seen, pixel, side, covered * (material.passes_light() ? T(1 - material.transmission) : T(1)));
+        }
+        path.throughput = path.throughput * grey<F>(double(covered));
+        if (goes_on && material.surface != Surface::diffuse && material.surface != Surface::black)
+            bend(hit, path, side);
+    }
+
+    /// @param diffuse_share  of the surface, see `EyeVertex`
+    void see(const Hit<T>& hit, const EyePath<T, F>& path, std::uint32_t pixel, T side, T diffuse_share) {
         const double share = 1 / (double(pi<T>) * options_.samples);
-        const F weight = path.throughput * scene_.material(hit).color * grey<F>(share);
+        const F weight = path.throughput * scene_.color(hit) * grey<F>(share);
         if (!(flux_traits<F>::power(weight) > 0))
             return;
         result_.vertices.push_back(
@@ -112,6 +160,7 @@ private:
         if (path.depth == 0)
             result_.vertices.back().footprint = camera_.footprint(
                 film_x_, film_y_, T(1) / T(grid_.columns), T(1) / T(grid_.rows), hit.position, hit.geometric_normal);
+        result_.vertices.back().diffuse_share = diffuse_share;
     }
 
     /// @param side  of the surface that the ray comes from, 1 or -1
@@ -121,7 +170,7 @@ private:
         const Vec3<T> normal =
             dot(path.direction, side * hit.shading_normal) < T(0) ? side * hit.shading_normal : facing;
 
-        if (material.surface != Surface::dielectric) {
+        if (!material.passes_light()) {
             reflect(hit, path, normal, facing, scene_.reflectance(material, hit, path.direction));
             return;
         }
@@ -130,13 +179,22 @@ private:
             pass(hit, path, at.beyond);
             return;
         }
+        const T transmission = T(material.transmission);
+        if (material.surface == Surface::window) {
+            const T once = scene_.reflectance(material, at), reflected = T(2) * once / (T(1) + once);
+            reflect(hit, path, normal, facing, grey<F>(double(reflected)));
+            go_on(hit, path, path.direction, true,
+                  scene_.color(hit) * grey<F>(double((T(1) - reflected) * transmission)), path.medium);
+            return;
+        }
         const T reflected = scene_.reflectance(material, at);
         if (reflected > T(0) && material.follow == Follow::both)
             reflect(hit, path, normal, facing, grey<F>(double(reflected)));
-        if (reflected < T(1))
+        if (reflected < T(1) && transmission > T(0))
             if (const auto refraction = nephroid::refraction(path.direction, normal, at.eta)) {
                 // Radiance over the square of the index is what passes unchanged.
-                const Bounce<T, F> through = scene_.refracted(hit, at, (T(1) - reflected) * at.eta * at.eta);
+                const Bounce<T, F> through =
+                    scene_.refracted(hit, at, (T(1) - reflected) * transmission * at.eta * at.eta);
                 go_on(hit, path, refraction->direction(), dot(refraction->direction(), facing) < T(0), through.weight,
                       through.medium);
             }
@@ -179,6 +237,7 @@ private:
     const Camera<T>& camera_;
     const EyePathOptions& options_;
     const Medium& start_; ///< that the camera is in
+    const Background<T, F>& background_;
     PixelGrid grid_;
     EyePaths<T, F>& result_;
     T film_x_ = T(0), film_y_ = T(0);
@@ -190,10 +249,12 @@ private:
 
 /// Follows the camera's rays through the scene. Both branches of glass are followed, until their weight is small.
 ///
-/// @param executor  the result does not depend on it
+/// @param executor    the result does not depend on it
+/// @param background  black where it is empty
 template <class T, Flux F, Executor E>
 [[nodiscard]] EyePaths<T, F> trace_eye_paths(const Scene<T, F>& scene, const Camera<T>& camera,
-                                             const EyePathOptions& options, E&& executor) {
+                                             const EyePathOptions& options, E&& executor,
+                                             const std::type_identity_t<Background<T, F>>& background = {}) {
     constexpr std::size_t chunk = 512; // pixels
     const std::size_t pixels = camera.width() * camera.height();
     const Medium start = scene.media_about(camera.ray(T(camera.width()) / 2, T(camera.height()) / 2).origin);
@@ -201,7 +262,7 @@ template <class T, Flux F, Executor E>
     executor(parts.size(), [&](std::size_t part) {
         const std::size_t first = part * chunk, last = (std::min)(first + chunk, pixels);
         parts[part].emitted.resize(last - first, flux_traits<F>::zero());
-        detail::EyePathTracer<T, F> tracer(scene, camera, options, start, parts[part]);
+        detail::EyePathTracer<T, F> tracer(scene, camera, options, start, background, parts[part]);
         for (std::size_t pixel = first; pixel < last; ++pixel)
             for (unsigned k = 0; k < options.samples; ++k) {
                 const PixelOffset<T> at = pixel_sample<T>(pixel, k, options.samples, options.seed);

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "common/gltf.hpp"
 
+#include "common/gltf/instances.hpp"
 #include "common/gltf/light.hpp"
 #include "common/gltf/material.hpp"
 #include "common/gltf/model.hpp"
+#include "common/gltf/nodes.hpp"
 #include "common/gltf/primitive.hpp"
+#include "common/gltf/recentring.hpp"
 #include "common/gltf/report.hpp"
 #include "common/gltf/tinygltf.hpp"
-#include "common/gltf/transform.hpp"
 
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/mat4x4.hpp>
 
 #include <cerrno>
+#include <cstdio>
 #include <exception>
 #include <fstream>
 #include <new>
@@ -23,110 +27,40 @@ namespace nephroid::examples {
 namespace gltf {
 namespace {
 
-constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-
-std::string name_of(const tinygltf::Model& model, std::size_t node) {
-    return named("node", node, model.nodes[node].name);
-}
-
-/// Every node's parent, or `none`. Fails unless the nodes form trees, as glTF demands: then no walk is endless.
-std::vector<std::size_t> parents_of(const tinygltf::Model& model) {
-    const std::size_t count = model.nodes.size();
-    std::vector<std::size_t> parents(count, none);
-    for (std::size_t i = 0; i < count; ++i) {
-        for (const int child : model.nodes[i].children) {
-            std::size_t& parent = parents[checked_index(child, count, name_of(model, i), "node")];
-            if (parent != none)
-                fail({name_of(model, static_cast<std::size_t>(child)), " has two parents, nodes ",
-                      std::to_string(parent), " and ", std::to_string(i), "; or one parent lists it twice"});
-            parent = i;
-        }
-    }
-
-    // With one parent each, a node is in a tree exactly if it can be reached from a root.
-    std::vector<std::size_t> pending;
-    for (std::size_t i = 0; i < count; ++i)
-        if (parents[i] == none)
-            pending.push_back(i);
-    std::vector<bool> reached(count, false);
-    while (!pending.empty()) {
-        const std::size_t i = pending.back();
-        pending.pop_back();
-        reached[i] = true;
-        for (const int child : model.nodes[i].children)
-            pending.push_back(static_cast<std::size_t>(child));
-    }
-    for (std::size_t i = 0; i < count; ++i)
-        if (!reached[i])
-            fail({name_of(model, i), " is its own ancestor or the child of one that is: the nodes form a cycle"});
-    return parents;
-}
-
-/// The nodes that the scene starts from, each once.
-std::vector<std::size_t> roots_of(const tinygltf::Model& model) {
-    const std::vector<std::size_t> parents = parents_of(model);
-    std::vector<std::size_t> roots;
-    if (model.scenes.empty()) {
-        for (std::size_t i = 0; i < parents.size(); ++i)
-            if (parents[i] == none)
-                roots.push_back(i);
-        return roots;
-    }
-
-    const int preset = model.defaultScene == -1 ? 0 : model.defaultScene;
-    const std::size_t scene = checked_index(preset, model.scenes.size(), "the file", "scene");
-    const std::string owner = named("scene", scene, model.scenes[scene].name);
-    std::vector<bool> listed(parents.size(), false);
-    for (const int node : model.scenes[scene].nodes) {
-        const std::size_t i = checked_index(node, parents.size(), owner, "node");
-        if (parents[i] != none)
-            fail(
-                {owner, " starts from ", name_of(model, i), ", which is a child of node ", std::to_string(parents[i])});
-        if (listed[i])
-            fail({owner, " lists ", name_of(model, i), " twice"});
-        listed[i] = true;
-        roots.push_back(i);
-    }
-    return roots;
+std::string text_of(const glm::dvec3& v) {
+    char text[96];
+    std::snprintf(text, sizeof text, "(%g, %g, %g)", v.x, v.y, v.z);
+    return text;
 }
 
 /// Builds the description node by node.
 class Reader {
 public:
     Reader(const tinygltf::Model& model, std::size_t file_bytes, Warnings& warnings)
-        : model_(model), budget_(file_bytes), warnings_(warnings) {}
+        : model_(model), file_bytes_(file_bytes), budget_(file_bytes), warnings_(warnings) {}
 
     SceneDescription read() {
         for (std::size_t i = 0; i < model_.materials.size(); ++i)
             scene_.materials.push_back(read_material(model_.materials[i], i, warnings_));
 
-        struct Step {
-            std::size_t node;
-            glm::dmat4 parent;
-        };
-        std::vector<Step> pending; // a stack of its own: a file can nest nodes deeper than the program's stack is
         const std::vector<std::size_t> roots = roots_of(model_);
-        for (auto root = roots.rbegin(); root != roots.rend(); ++root)
-            pending.push_back({*root, glm::dmat4(1)});
-        while (!pending.empty()) {
-            const Step step = pending.back();
-            pending.pop_back();
-            const tinygltf::Node& node = model_.nodes[step.node];
-            const std::string name = name_of(model_, step.node);
-            const glm::dmat4 to_world = step.parent * local_transform(node, name);
-            if (!is_finite_in_float(to_world))
-                fail({name, " has a transform that becomes too large"});
-            visit(node, name, to_world);
-            for (auto child = node.children.rbegin(); child != node.children.rend(); ++child)
-                pending.push_back({static_cast<std::size_t>(*child), to_world});
-        }
+        scene_.origin = origin_for(model_, roots, scene_.materials, file_bytes_);
+        if (scene_.origin != glm::dvec3(0))
+            warnings_.add("the scene lies far from the origin and is moved there, by " + text_of(-scene_.origin));
+        for_each_node(model_, roots, glm::translate(glm::dmat4(1), -scene_.origin),
+                      [this](const tinygltf::Node& node, const std::string& name, const glm::dmat4& to_world) {
+                          visit(node, name, to_world);
+                      });
         return std::move(scene_);
     }
 
 private:
     void visit(const tinygltf::Node& node, const std::string& name, const glm::dmat4& to_world) {
-        if (node.mesh != -1)
-            add_mesh(node, checked_index(node.mesh, model_.meshes.size(), name, "mesh"), to_world);
+        if (node.mesh != -1) {
+            const std::size_t mesh = checked_index(node.mesh, model_.meshes.size(), name, "mesh");
+            for (const glm::dmat4& instance : instances_of(model_, node, name, budget_))
+                add_mesh(node, mesh, to_world * instance);
+        }
         if (node.skin != -1)
             warnings_.add(name + " has a skin, which is not read");
         if (auto light = light_of(model_, node, to_world, name)) {
@@ -172,13 +106,13 @@ private:
     }
 
     const tinygltf::Model& model_;
+    std::size_t file_bytes_;
     Budget budget_;
     Warnings& warnings_;
     SceneDescription scene_;
 };
 
-SceneDescription parse(std::span<const unsigned char> file, const std::filesystem::path& folder) {
-    Warnings warnings;
+SceneDescription parse(std::span<const unsigned char> file, const std::filesystem::path& folder, Warnings& warnings) {
     const tinygltf::Model model = load_model(file, folder, warnings);
     std::size_t bytes = file.size();
     for (const tinygltf::Buffer& buffer : model.buffers)
@@ -214,25 +148,28 @@ std::vector<unsigned char> file_content(const std::filesystem::path& path) {
 /// Runs a part of the reader, and puts the file's name before what it complains of.
 template <class Part>
 auto naming(const std::filesystem::path& path, const Part& part) {
+    Warnings warnings;
     std::string problem;
     try {
-        return part();
+        return part(warnings);
     } catch (const std::bad_alloc&) {
         problem = "not enough memory to read it";
     } catch (const std::exception& error) {
         problem = error.what();
     }
-    throw std::runtime_error(one_line(path.string()) + ": " + one_line(problem));
+    throw UnreadableGltf(one_line(path.string()) + ": " + one_line(problem), warnings.take());
 }
 } // namespace
 } // namespace gltf
 
 SceneDescription parse_gltf(std::span<const unsigned char> file, const std::filesystem::path& path) {
-    return gltf::naming(path, [&] { return gltf::parse(file, path.parent_path()); });
+    return gltf::naming(path,
+                        [&](gltf::Warnings& warnings) { return gltf::parse(file, path.parent_path(), warnings); });
 }
 
 SceneDescription read_gltf(const std::filesystem::path& path) {
-    const std::vector<unsigned char> content = gltf::naming(path, [&] { return gltf::file_content(path); });
+    const std::vector<unsigned char> content =
+        gltf::naming(path, [&](gltf::Warnings&) { return gltf::file_content(path); });
     return parse_gltf(content, path);
 }
 

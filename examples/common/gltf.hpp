@@ -11,7 +11,9 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nephroid::examples {
@@ -29,6 +31,7 @@ struct MeshDescription {
 struct MaterialDescription {
     std::string name;
     glm::vec3 base_color{1}; ///< in [0, 1]
+    float coverage = 1;      ///< in [0, 1]: the opacity of alphaMode BLEND; of MASK 0 or 1. The rest passes unbent
     float metallic = 1;      ///< in [0, 1]
     float roughness = 1;     ///< in [0, 1]
     float transmission = 0;  ///< in [0, 1]
@@ -38,6 +41,16 @@ struct MaterialDescription {
     float attenuation_distance = std::numeric_limits<float>::infinity(); ///< > 0, world units
     glm::vec3 emission{0}; ///< radiance: emissiveFactor times emissiveStrength
     bool double_sided = false;
+
+    [[nodiscard]] bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
+    /// Whether it sends light on that may make a caustic: a smooth metal, what transmits, what is there in part.
+    [[nodiscard]] bool is_specular() const {
+        const bool is_smooth = roughness < roughest_mirror;
+        const bool reflects = is_smooth && (metallic >= 0.5f || !(ior > 0));
+        return !emits() && (reflects || (transmission > 0 && ior > 0) || coverage < 1);
+    }
+    /// A metal of this roughness and more is shown diffuse.
+    static constexpr float roughest_mirror = 0.4f;
 };
 
 /// KHR_lights_punctual, with its units taken as radiometric.
@@ -52,6 +65,7 @@ struct LightDescription {
     float cos_inner = 1;           ///< of a spot: full intensity within this angle from `direction`; > cos_outer
     float cos_outer = 0.70710678f; ///< of a spot: nothing beyond this angle
     float range = std::numeric_limits<float>::infinity(); ///< the file's hint how far it reaches; > 0, world units
+    float angular_diameter = 0; ///< of a directional light, radians: the sun is a disk. No file says so
 };
 
 struct CameraDescription {
@@ -75,18 +89,29 @@ struct SceneDescription {
     std::vector<LightDescription> lights;
     std::vector<CameraDescription> cameras;
     std::vector<std::string> warnings; ///< what was left out or repaired, a line each
+    glm::dvec3 origin{0};              ///< where the file has what is 0 here: not 0 where the scene lies far off
+};
+
+/// A file that cannot be read, and what had been noticed of it before.
+struct UnreadableGltf : std::runtime_error {
+    std::vector<std::string> warnings;
+
+    UnreadableGltf(const std::string& problem, std::vector<std::string> noticed)
+        : std::runtime_error(problem), warnings(std::move(noticed)) {}
 };
 
 /// Reads the default scene of a file, or its first; without scenes every root node.
 ///
 /// Read: triangles, strips and fans, accessors of every component type, sparse and interleaved ones, buffers inside the
 /// file, beside it and as data URIs, nested transforms (a mirroring one keeps the front in front), and the extensions
-/// KHR_lights_punctual, KHR_mesh_quantization, KHR_materials_transmission, _ior, _volume and _emissive_strength.
-/// Left out with a warning: points and lines, textures (images are not opened), opacity, animation, skins and morph
-/// targets. Triangles without area are dropped; normals of length zero are replaced by those of the triangles around.
+/// KHR_lights_punctual, KHR_mesh_quantization, KHR_materials_transmission, _ior, _volume and _emissive_strength, and
+/// EXT_mesh_gpu_instancing. A scene that lies far from the origin, measured by what in it is specular, is moved there
+/// in double precision: float keeps seven digits of a position, and a caustic needs them.
+/// Left out with a warning: points and lines, textures (images are not opened), animation, skins and morph targets.
+/// Triangles without area are dropped; normals of length zero are replaced by those of the triangles around.
 ///
-/// Throws std::runtime_error, one line with the file, what is wrong and where, for anything that is not such a file:
-/// also for a required extension that is not read, an index or an accessor out of bounds, a vertex that is not finite,
+/// Throws UnreadableGltf, one line with the file, what is wrong and where, for anything that is not such a file: also
+/// for a required extension that is not read, an index or an accessor out of bounds, a vertex that is not finite,
 /// a primitive without triangles, nodes that form a cycle, and a scene that grows out of all proportion to its file by
 /// showing meshes again and again. Not checked: that the scene has anything in it to render.
 [[nodiscard]] SceneDescription read_gltf(const std::filesystem::path& path);

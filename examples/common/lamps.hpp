@@ -2,11 +2,13 @@
 /// @file  The lamps of a scene: as they light what is seen directly, and as they emit photons at what is specular.
 #pragma once
 
+#include "common/environment_light.hpp"
 #include "common/scene.hpp"
 
 #include "nephroid/emission/light/standard_lights.hpp"
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -46,9 +48,24 @@ template <class T, Flux F>
 struct Lamps {
     std::vector<Lamp<T, F>> lamps;
     std::vector<AreaLamp<T, F>> areas;
+    std::vector<std::shared_ptr<const Environment<T, F>>> environments;
 
-    [[nodiscard]] bool empty() const { return lamps.empty() && areas.empty(); }
+    [[nodiscard]] bool empty() const { return lamps.empty() && areas.empty() && environments.empty(); }
+
+    /// What a ray sees that meets nothing.
+    [[nodiscard]] F background(const Vec3<T>& direction) const {
+        F sum = flux_traits<F>::zero();
+        for (const auto& environment : environments)
+            if (!environment->is_lamp())
+                sum = sum + environment->radiance(direction);
+        return sum;
+    }
 };
+
+/// A scene's lamps as a light that photons come from.
+template <class T, Flux F>
+using SceneLights = LightSet<PointLight<Vec3<T>, F>, SpotLight<Vec3<T>, F>, DirectionalLight<Vec3<T>, F>,
+                             MeshLight<Vec3<T>, F>, EnvironmentLight<T, F>>;
 
 /// The area lamps of a scene: the triangles of its meshes that emit, one lamp for each material of each mesh.
 ///
@@ -138,7 +155,7 @@ template <class T>
 /// The lamps as lights that send photons to the scene's specular surfaces.
 /// Throws std::invalid_argument without lamps, and without (bounded) specular surfaces.
 template <class T, Flux F>
-[[nodiscard]] StandardLights<Vec3<T>, F> photon_lights(const Lamps<T, F>& lamps, const Scene<T, F>& scene) {
+[[nodiscard]] SceneLights<T, F> photon_lights(const Lamps<T, F>& lamps, const Scene<T, F>& scene) {
     using V = Vec3<T>;
     if (lamps.empty())
         invalid_argument("the scene has no lights");
@@ -146,7 +163,7 @@ template <class T, Flux F>
     if (!target)
         invalid_argument("the scene has no specular surfaces: nothing in it makes a caustic");
 
-    std::vector<typename StandardLights<V, F>::AnyLight> lights;
+    std::vector<typename SceneLights<T, F>::AnyLight> lights;
     for (const Lamp<T, F>& lamp : lamps.lamps) {
         switch (lamp.kind) {
         case Lamp<T, F>::Kind::point:
@@ -176,9 +193,15 @@ template <class T, Flux F>
         if (!triangles.empty())
             lights.push_back(MeshLight<V, F>({.triangles = triangles, .radiance = area.radiance, .target = target}));
     }
+    for (const auto& environment : lamps.environments) {
+        const Box<T>& bounds = scene.bounds();
+        lights.push_back(EnvironmentLight<T, F>(
+            environment, *target,
+            {T(0.5) * (bounds.min + bounds.max), T(0.5) * length(Vec3<T>(bounds.max - bounds.min))}));
+    }
     if (lights.empty())
         invalid_argument("no light of the scene shines towards its specular surfaces");
-    return StandardLights<V, F>(std::move(lights));
+    return SceneLights<T, F>(std::move(lights));
 }
 
 } // namespace nephroid::examples

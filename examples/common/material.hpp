@@ -37,6 +37,7 @@ enum class Surface : unsigned char {
     diffuse,    ///< `color` is the albedo
     mirror,     ///< `color` is the reflectance, the same at each angle
     dielectric, ///< glass, water; `color` multiplies what passes, `ior`, `fresnel`, `follow` and `absorption` count
+    window,     ///< a pane too thin to displace light, both its faces: `color` multiplies what passes, `ior` counts
     conductor,  ///< metal of complex index `eta` + i `k`, times `color`
     black,      ///< takes all light; what emits is black to the light of others
 };
@@ -62,9 +63,21 @@ struct Material {
 
     F eta = grey<F>(1), k = flux_traits<F>::zero();
 
+    /// Of a dielectric or window: the share of what enters that passes, 0 to 1; the rest falls on a diffuse layer of
+    /// albedo `color` in it.
+    double transmission = 1;
+    double coverage = 1; ///< 0 to 1: the share of the surface that is there; through the rest light passes unbent
+
+    [[nodiscard]] bool passes_light() const { return surface == Surface::dielectric || surface == Surface::window; }
     [[nodiscard]] bool is_specular() const {
-        return surface == Surface::mirror || surface == Surface::dielectric || surface == Surface::conductor;
+        return passes_light() || surface == Surface::mirror || surface == Surface::conductor || coverage < 1;
     }
+    /// Whether light may find it diffuse.
+    [[nodiscard]] bool is_diffuse() const {
+        return (surface == Surface::diffuse || (passes_light() && transmission < 1)) && coverage > 0;
+    }
+    /// Whether one ray may meet more than one kind of surface in it.
+    [[nodiscard]] bool is_mixture() const { return coverage < 1 || (passes_light() && transmission < 1); }
     [[nodiscard]] bool emits() const { return flux_traits<F>::power(emission) > 0; }
 
     [[nodiscard]] static Material diffuse(const F& albedo) { return with(Surface::diffuse, albedo); }
@@ -85,6 +98,12 @@ struct Material {
         material.ior = ior;
         material.fresnel = fresnel;
         material.follow = follow;
+        return material;
+    }
+
+    [[nodiscard]] static Material window(double ior) {
+        Material material = dielectric(ior);
+        material.surface = Surface::window;
         return material;
     }
 

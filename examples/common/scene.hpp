@@ -81,6 +81,7 @@ public:
     [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
     [[nodiscard]] const std::vector<Material<F>>& materials() const { return materials_; }
     [[nodiscard]] const Material<F>& material(const Hit<T>& hit) const { return materials_[hit.surface]; }
+    [[nodiscard]] const F& color(const Hit<T>& hit) const { return material(hit).color; }
     [[nodiscard]] bool empty() const { return parts_.empty(); }
 
     /// Whether anything can make a caustic.
@@ -146,12 +147,15 @@ public:
     }
 
     /// @param direction  that the photon flies in, unit
-    /// @param sampler    drawn from once, and only where a dielectric both reflects and refracts and both are followed
+    /// @param sampler    drawn from once, and only where there is a choice: between a dielectric's reflection and
+    ///                   refraction if both are followed, and between the parts of a mixture
     /// @param through    what the photon comes through
     template <class Sampler>
     [[nodiscard]] Bounce<T, F> scatter(const Hit<T>& hit, const Vec3<T>& direction, Sampler& sampler,
                                        const Medium& through) const {
         const Material<F>& m = material(hit);
+        if (m.is_mixture())
+            return scatter_mixture(m, hit, direction, through, sampler.template next<T>());
         switch (m.surface) {
         case Surface::diffuse:
             return {Event::deposit};
@@ -160,6 +164,8 @@ public:
             return {Event::reflect, reflectance(m, hit, direction)};
         case Surface::dielectric:
             break;
+        case Surface::window:
+            return scatter_mixture(m, hit, direction, through, sampler.template next<T>());
         case Surface::black:
             return {Event::absorb};
         }
@@ -175,9 +181,30 @@ public:
         return refracted(hit, at, T(1));
     }
 
-    /// How a ray that comes through a medium meets a dielectric.
+    /// The shares of the light that meets a surface, which add up to 1 with what is absorbed.
+    struct Shares {
+        T missed;    ///< passes unbent where the surface is not
+        T reflected; ///< by a dielectric or a window
+        T passed;    ///< goes through a dielectric, bent, or a window, unbent
+    };
+
+    /// What becomes of light at a mixture, whose rest is diffuse, or what its surface is.
+    [[nodiscard]] Shares shares(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
+                                const Medium& through = Medium{}) const {
+        const T covered = T(m.coverage);
+        if (!m.passes_light())
+            return {T(1) - covered, T(0), T(0)};
+        T reflected = reflectance(m, interface(m, hit, direction, through));
+        if (m.surface == Surface::window) // there and back between its faces, summed up
+            reflected = T(2) * reflected / (T(1) + reflected);
+        return {T(1) - covered, covered * reflected, covered * (T(1) - reflected) * T(m.transmission)};
+    }
+
+    /// How a ray that comes through a medium meets a dielectric. A window is entered on both sides, and left again.
     [[nodiscard]] Interface<T> interface(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
                                          const Medium& through) const {
+        if (m.surface == Surface::window)
+            return {T(index_of(through.here()) / m.ior), cosine(hit, direction), through, true};
         const bool enters = dot(direction, hit.geometric_normal) < T(0);
         const auto surface = through.at_surface_of(static_cast<std::int32_t>(hit.surface), m.priority, enters);
         return {T(index_of(surface.before) / index_of(surface.after)), cosine(hit, direction), surface.beyond,
@@ -203,7 +230,7 @@ public:
     ///
     /// @param share  of the light that the ray carries
     [[nodiscard]] Bounce<T, F> refracted(const Hit<T>& hit, const Interface<T>& at, T share) const {
-        return {Event::refract, material(hit).color * grey<F>(double(share)), at.eta, at.beyond};
+        return {Event::refract, color(hit) * grey<F>(double(share)), at.eta, at.beyond};
     }
 
     /// What is left of the light after a flight through a medium.
@@ -260,6 +287,32 @@ public:
     }
 
 private:
+    /// Takes one of a mixture's ways by chance, in proportion to its share, so that its weight is 1.
+    ///
+    /// @param number  0 to 1
+    [[nodiscard]] Bounce<T, F> scatter_mixture(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
+                                               const Medium& through, T number) const {
+        const Shares share = shares(m, hit, direction, through);
+        T left = number - share.missed;
+        if (left < T(0))
+            return {Event::refract, grey<F>(1), T(1), through};
+        if (m.surface == Surface::mirror || m.surface == Surface::conductor)
+            return {Event::reflect, reflectance(m, hit, direction)};
+        if (!m.passes_light())
+            return {m.is_diffuse() ? Event::deposit : Event::absorb};
+        const Interface<T> at = interface(m, hit, direction, through);
+        if (!at.is_real)
+            return {Event::pass, grey<F>(1), T(1), at.beyond};
+        left -= share.reflected;
+        if (left < T(0))
+            return {Event::reflect, grey<F>(1)};
+        left -= share.passed;
+        if (left < T(0) || !m.is_diffuse())
+            return m.surface == Surface::window ? Bounce<T, F>{Event::refract, color(hit), T(1), through}
+                                                : refracted(hit, at, T(1));
+        return {Event::deposit};
+    }
+
     /// @tparam Order  AnyOrder or a ContactOrder
     template <class Order>
     [[nodiscard]] std::optional<Hit<T>> nearest_hit(const Ray<T>& ray, Order order) const {

@@ -24,6 +24,13 @@ std::string json_string(const std::string& value) {
     return result + "\"";
 }
 
+std::string json_array(const std::vector<std::string>& values) {
+    std::string result = "[";
+    for (const std::string& value : values)
+        result += (result.size() > 1 ? ", " : "") + json_string(value);
+    return result + "]";
+}
+
 std::string json_object(const JsonMembers& members, const std::string& indent) {
     std::string result = "{";
     for (const auto& [name, value] : members)

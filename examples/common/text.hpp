@@ -30,6 +30,9 @@ using JsonMembers = std::vector<std::pair<std::string, std::string>>;
 /// A string in quotation marks, its quotation marks and backslashes escaped; control characters become spaces.
 [[nodiscard]] std::string json_string(const std::string& value);
 
+/// Strings as a JSON array, in one line.
+[[nodiscard]] std::string json_array(const std::vector<std::string>& values);
+
 /// @param indent  of the closing brace; the members are two spaces further in
 [[nodiscard]] std::string json_object(const JsonMembers& members, const std::string& indent);
 

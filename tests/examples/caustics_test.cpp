@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <initializer_list>
 #include <vector>
@@ -65,6 +66,21 @@ TEST_CASE("caustics: options are read, and numbers may be written as powers of t
     CHECK(options->output == "ring.png");
 }
 
+TEST_CASE("caustics: a sun, a ground and an environment are read, the ground with its albedo or without") {
+    const auto with = read({"--ground", "a.glb", "--sun", "-1,-2,.5,0.53", "--environment", "constant"});
+    REQUIRE(with.has_value());
+    CHECK(with->scene == "a.glb");
+    REQUIRE(with->sun.has_value());
+    CHECK(with->sun->direction == std::array<double, 3>{-1, -2, 0.5});
+    CHECK(with->sun->degrees == 0.53);
+    CHECK(with->ground == 0.8);
+    CHECK(with->environment == "constant");
+    CHECK(read({"a.glb", "--ground", "0.25"})->ground == 0.25);
+    CHECK(read({"a.glb", "--ground=.5"})->ground == 0.5);
+    CHECK(read({"a.glb", "--sun=0,-1,0"})->sun->degrees == 0);
+    CHECK_FALSE(read({"a.glb"})->ground.has_value());
+}
+
 TEST_CASE("caustics: what cannot be done is refused with a line that names the option") {
     const auto message = [](std::initializer_list<const char*> arguments) -> std::string {
         try {
@@ -86,6 +102,15 @@ TEST_CASE("caustics: what cannot be done is refused with a line that names the o
     CHECK(message({"ring", "--samples", "0"}).find("--samples") != std::string::npos);
     CHECK(message({"ring", "--view", "0", "0", "0", "1"}).find("--view") != std::string::npos);
     CHECK(message({}).find("scene") != std::string::npos);
+    for (const char* sun :
+         {"", "1,2", "1,2,3,4,5", "0,0,0", "a,b,c", "1,2,nan", "1,2,3x", "1,,2", "0,-1,0,91", "0,-1,0,-1"})
+        CHECK(message({"a.glb", "--sun", sun}).find(*sun == '\0' ? "--sun" : "--sun: '") != std::string::npos);
+    for (const char* albedo : {"0", "1.5", "-1", "nan", "0.5x"})
+        CHECK(message({"a.glb", "--ground", albedo}).find("--ground: '") != std::string::npos);
+    CHECK(message({"a.glb", "--ground", "--sun", "0,1,0"}).find("does not go down") != std::string::npos);
+    CHECK(message({"ring", "--ground"}).find("built-in") != std::string::npos);
+    CHECK(message({"ring", "--sun", "0,-1,0"}).find("built-in") != std::string::npos);
+    CHECK(message({"ring", "--environment", "constant"}).find("built-in") != std::string::npos);
     for (const auto& text : {message({"ring", "--kernel", "box"}), message({"ring", "--nonsense"})})
         CHECK(text.find('\n') == std::string::npos);
 }
@@ -172,7 +197,7 @@ TEST_CASE("caustics: a file's picture is the same for any number of threads") {
     CHECK(pictures[0] == pictures[2]);
 }
 
-TEST_CASE("caustics: files without light or without anything specular are refused by name") {
+TEST_CASE("caustics: files without anything specular are refused by name") {
     const TemporaryFolder folder;
     const auto message = [&](const GltfFile& file) -> std::string {
         const auto path = folder.path() / "faulty.glb";
@@ -185,6 +210,6 @@ TEST_CASE("caustics: files without light or without anything specular are refuse
         }
         return "accepted";
     };
-    CHECK(message(caustic_scene(TestLight::none)).find("no light") != std::string::npos);
+    CHECK(message(caustic_scene(TestLight::none)) == "accepted"); // and lit by a sun
     CHECK(message(caustic_scene(TestLight::sun, TestSphere::diffuse)).find("no specular surface") != std::string::npos);
 }

@@ -83,6 +83,33 @@ TEST_CASE("glTF: an extension that is not read is refused if it is required, els
     CHECK(problem_of(file).empty());
 }
 
+// Files packed by meshoptimizer have a second buffer without a uri, for readers that know where its bytes come from.
+TEST_CASE("glTF: what is packed by meshoptimizer is refused by that name, whatever else is strange about the file") {
+    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+        GltfFile file = file_with(horizontal_square(1));
+        file.more = std::string(R"(,"extensionsUsed":[")") + name + R"("],"extensionsRequired":[")" + name + "\"]";
+        std::string json = file.json();
+        json.replace(json.find(R"("buffers":[)"), 11, R"("buffers":[{"byteLength":4},)");
+        check_problem(problem_of(glb_bytes(json, file.binary)), std::string("requires the extension ") + name);
+    }
+}
+
+TEST_CASE("glTF: what was noticed before the fault comes with it") {
+    GltfFile file = file_with(horizontal_square(1));
+    file.materials = {R"({"name":"wood","pbrMetallicRoughness":{"baseColorFactor":[2,1,1,1]}})"};
+    file.more = R"(,"extensionsUsed":["KHR_materials_clearcoat"])";
+    file.add_node(R"({"mesh":7})");
+    try {
+        static_cast<void>(parse(file));
+        FAIL("the file was read");
+    } catch (const nephroid::examples::UnreadableGltf& error) {
+        check_problem(error.what(), "mesh 7");
+        REQUIRE(error.warnings.size() == 2);
+        CHECK(contains(error.warnings[0], "KHR_materials_clearcoat"));
+        CHECK(contains(error.warnings[1], "clamped"));
+    }
+}
+
 // Faults --------------------------------------------------------------------------------------------------------------
 
 TEST_CASE("glTF: nodes that form a cycle, or have two parents, are refused") {

@@ -199,7 +199,7 @@ TEST_CASE("glTF: nested transforms apply from the inside to the outside") {
     // Inner: (10, 2, 0), (7, 0, 0), (10, 0, 4). The parent takes y to z, z to -y, and moves by 100 along y.
     const std::vector<glm::vec3> expected{{10, 100, 2}, {7, 100, 0}, {10, 96, 0}};
     for (std::size_t i = 0; i < 3; ++i)
-        CHECK(distance(scene.meshes[0].positions[i], expected[i]) < 100 * few_roundings);
+        CHECK(distance(scene.meshes[0].positions[i] + glm::vec3(scene.origin), expected[i]) < 100 * few_roundings);
 }
 
 // The normal of an ellipsoid with the half axes a, b, c is along (x / a^2, y / b^2, z / c^2).
@@ -247,7 +247,8 @@ TEST_CASE("glTF: nodes nested very deep are walked") {
     for (std::size_t i = 0; i < depth; ++i)
         file.add_node(R"({"translation":[1,0,0],"children":[)" + std::to_string(i) + "]}");
     file.roots = {depth};
-    CHECK(parse(file).meshes.at(0).positions.at(0).x == float(depth) - 1);
+    const SceneDescription scene = parse(file);
+    CHECK(double(scene.meshes.at(0).positions.at(0).x) + scene.origin.x == double(depth) - 1);
 }
 
 // Materials, lights, cameras ------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 using namespace nephroid::examples;
 
@@ -67,8 +68,9 @@ TEST_CASE_TEMPLATE("scene from gltf: materials become what they are nearest to",
     CHECK(m[3].emission == Vec3<T>(5, 6, 7));
     CHECK(m[3].emits_on_both_sides);
     CHECK(m[4].surface == Surface::diffuse);
-    REQUIRE(g.warnings.size() == 1);
-    CHECK(g.warnings[0].find("brushed") != std::string::npos);
+    REQUIRE(g.warnings.size() == 2);
+    CHECK(g.warnings[0].find("of roughness 0.05, shown smooth") != std::string::npos);
+    CHECK(g.warnings[1].find("\"brushed\": is rough metal") != std::string::npos);
     // Beer's law leaves the attenuation's colour after its distance.
     Medium inside;
     inside.enter(1);
@@ -77,6 +79,88 @@ TEST_CASE_TEMPLATE("scene from gltf: materials become what they are nearest to",
     CHECK(std::abs(left.y - T(0.5)) < T(1e-6));
     CHECK(left.z == 1);
     CHECK(g.scene.transmittance(Medium{}, T(2)) == Vec3<T>(1));
+}
+
+TEST_CASE("scene from gltf: what is shown otherwise than the file says is noted, whatever it is") {
+    const auto notes = [](const auto& change) {
+        SceneDescription d;
+        MaterialDescription m;
+        m.name = "m";
+        m.metallic = 0;
+        m.has_volume = true;
+        change(m);
+        d.materials = {m};
+        d.meshes = {triangle(0, 0)};
+        const auto g = scene_from<float>(d);
+        std::string all;
+        for (const std::string& warning : g.warnings)
+            all += warning + '\n';
+        return all;
+    };
+    const auto has = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+    CHECK(notes([](MaterialDescription&) {}).empty());
+    for (const float roughness : {0.01f, 0.2f, 0.39f, 0.8f}) {
+        CHECK(has(notes([=](auto& m) { m.transmission = 1, m.roughness = roughness; }), "shown smooth"));
+        CHECK(has(notes([=](auto& m) { m.metallic = 1, m.roughness = roughness; }),
+                  roughness < 0.4f ? "shown smooth" : "shown diffuse"));
+    }
+    CHECK(notes([](auto& m) { m.transmission = 1, m.roughness = 0; }).empty());
+    CHECK(notes([](auto& m) { m.metallic = 1, m.roughness = 0; }).empty());
+    CHECK(has(notes([](auto& m) { m.metallic = 0.7f, m.roughness = 0; }), "metallic by 0.7 only"));
+    CHECK(has(notes([](auto& m) { m.roughness = 0.1f; }), "glossy"));
+    CHECK(has(notes([](auto& m) { m.transmission = 1, m.roughness = 0, m.metallic = 1; }), "set metallicFactor to 0"));
+    CHECK(has(notes([](auto& m) { m.coverage = 0.25f; }), "is there by 0.25 (its opacity)"));
+}
+
+// KHR_materials_ior: with an index of 0 Fresnel's reflectance is 1 at every angle.
+TEST_CASE("scene from gltf: an index of refraction of 0 is a mirror, with a note") {
+    for (const float transmission : {0.0f, 1.0f}) {
+        SceneDescription d = description();
+        d.materials[1].ior = 0;
+        d.materials[1].transmission = transmission;
+        const auto g = scene_from<float>(d);
+        CHECK(g.scene.materials()[1].surface == Surface::mirror);
+        CHECK(g.scene.materials()[1].color == Vec3<float>(1));
+        REQUIRE(g.warnings.size() == 3);
+        CHECK(g.warnings[0].find("index of refraction of 0") != std::string::npos);
+    }
+}
+
+TEST_CASE(
+    "scene from gltf: what transmits without a volume is a window where it is open and solid where it is closed") {
+    SceneDescription d;
+    MaterialDescription glass;
+    glass.name = "glass";
+    glass.metallic = 0;
+    glass.roughness = 0;
+    glass.transmission = 0.5f;
+    d.materials = {glass};
+    MeshDescription tetrahedron;
+    tetrahedron.name = "drop";
+    tetrahedron.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    tetrahedron.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    d.meshes = {triangle(-5, 0), tetrahedron, triangle(5, 0)};
+    auto g = scene_from<float>(d);
+    const auto surface_at = [&](float z) {
+        return g.scene.material(*g.scene.intersect({0.1f, 0.1f, z}, {0, 0, 1}, 0, 2)).surface;
+    };
+    CHECK(surface_at(-6) == Surface::window);
+    CHECK(surface_at(-1) == Surface::dielectric);
+    CHECK(surface_at(4) == Surface::window);
+    REQUIRE(g.warnings.size() == 2); // one for both windows
+    CHECK(g.warnings[0].find("thin window") != std::string::npos);
+    CHECK(g.warnings[1].find("\"drop\" of material \"glass\" transmits and has no volume") != std::string::npos);
+
+    d.materials[0].has_volume = true;
+    g = scene_from<float>(d);
+    CHECK(surface_at(-6) == Surface::dielectric);
+    CHECK(g.warnings.empty());
+    for (auto& t : d.meshes[1].triangles)
+        std::swap(t[0], t[1]);
+    g = scene_from<float>(d);
+    REQUIRE(g.warnings.size() == 1);
+    CHECK(g.warnings[0].find("\"drop\"") != std::string::npos);
+    CHECK(g.warnings[0].find("inside out") != std::string::npos);
 }
 
 TEST_CASE_TEMPLATE("scene from gltf: triangles keep their materials and their normals", T, float, double) {

@@ -99,6 +99,52 @@ fi
 "$caustics" ring $few --output m.exr >/dev/null || fail "ring as .exr"
 "$caustics" ring --view -.5 .5 -.5 .5 --size 32 --output m.png >/dev/null || fail "a view of negative numbers"
 
+# A file of a glass box alone: sun, ground and camera are assumed, and told before the table. The second argument goes
+# into the material, the third into the file.
+write_box() { # file, material, more
+    cat >"$1" <<END
+{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"box"}],
+"meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
+"materials":[{"name":"glass","pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0},"extensions":
+{"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_volume":{"thicknessFactor":1}}$2}],
+"accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3"},
+{"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"}],
+"bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36}],
+"buffers":[{"byteLength":132,"uri":"data:application/octet-stream;base64,\
+AAAAvwAAAAAAAAC/AAAAvwAAAAAAAAA/AAAAvwAAgD8AAAC/AAAAvwAAgD8AAAA/AAAAPwAAAAAAAAC/AAAAPwAA\
+AAAAAAA/AAAAPwAAgD8AAAC/AAAAPwAAgD8AAAA/AAEDAAMCBAYHBAcFAAQFAAUBAgMHAgcGAAIGAAYEAQUHAQcD"}]$3}
+END
+}
+write_box box.gltf
+"$caustics" box.gltf --photons 2000 --size 64 --output box.pfm --json box.json >box.txt 2>errors.txt ||
+    fail "a file without lamp, floor and camera: $(cat errors.txt)"
+[ ! -s errors.txt ] || fail "box.gltf: $(cat errors.txt)"
+for assumed in "assumed --sun" "assumed --ground 0.8" "no camera in the file"; do
+    grep -q "^note: .*$assumed" box.txt || fail "box.gltf: does not say '$assumed': $(cat box.txt)"
+done
+sed '/^caustics/q' box.txt | grep -q "assumed --sun" || fail "what is assumed is told after the table began"
+at_least "$(value box.json 'caustic photons')" 1500 "box.gltf: caustic photons"
+# What is asked for is not called assumed, and a sun has the size that it is given.
+"$caustics" box.gltf --sun 0,-1,0,5 --ground --environment constant --photons 2000 --size 32 --output box.png >box.txt ||
+    fail "box.gltf with all that can be added"
+! grep -q "assumed --" box.txt || fail "called assumed what was asked for"
+
+# Ctrl-C writes the picture so far, whole, and says so by its status: 128 and the number of SIGINT. Photons so far stand
+# for all: the picture is as bright as the finished one.
+"$caustics" ring --photons 1e5 --size 64 --output whole.pfm --json whole.json >/dev/null
+status=0
+seconds=2
+! is_sanitized || seconds=30
+timeout --preserve-status -s INT $seconds "$caustics" ring --photons 1e12 --size 64 --output part.pfm --json part.json \
+    >part.txt 2>errors.txt || status=$?
+if [ $status -ne 127 ]; then # there is a timeout
+    [ $status -eq 130 ] || fail "Ctrl-C: status $status, $(cat errors.txt)"
+    [ "$(wc -l <errors.txt)" -eq 1 ] && grep -q interrupted errors.txt || fail "Ctrl-C: $(cat errors.txt)"
+    at_most "$(value part.json energy)" 0.05 "Ctrl-C: energy of the picture so far"
+    grep -q '"interrupted": true' part.json || fail "Ctrl-C: the statistics do not say so"
+    [ -z "$(ls | grep partial)" ] || fail "Ctrl-C left a part of a file behind"
+fi
+
 # A refusal is one line on stderr, a status that is not zero, and no file.
 refuses() { # words in the message, arguments
     words=$1
@@ -133,6 +179,39 @@ refuses "kernel" ring --kernel box
 refuses "view" ring --view 1 0 0 1
 refuses "fresnel" ring --fresnel on
 refuses "no-such-option" ring --no-such-option
+refuses "emit" ring --emit 0
+refuses "seed" ring --seed -1
+refuses "samples" ring --samples 0
+refuses "threads" ring --threads -1
+refuses "threads" ring --threads 5000
+refuses "sequence" ring --sequence fibonacci
+refuses "pixel-filter" ring --pixel-filter maybe
+refuses "reflections" ring --reflections two
+refuses "layer" box.gltf --layer glass
+refuses "layer" ring --layer direct
+refuses "curved" ring --curved --first-order
+refuses "view" box.gltf --view 0 1 0 1
+refuses "materials" box.gltf --fresnel on
+refuses "sun" box.gltf --sun 1,2
+refuses "sun" box.gltf --sun 0,0,0
+refuses "sun" box.gltf --sun 0,-1,0,120
+refuses "sun" box.gltf --sun 0,1,0 --ground
+refuses "ground" box.gltf --ground 1.5
+refuses "built-in" ring --ground
+refuses "no-such.hdr" box.gltf --environment no-such.hdr
+refuses "box.gltf" box.gltf --environment box.gltf
+printf 'not a picture' >wrong.hdr
+refuses "wrong.hdr" box.gltf --environment wrong.hdr
+refuses "json" ring --json no-such-folder/json
+# What was noticed of a file is said before the fault that ends the program; the fault alone is on stderr.
+meshopt='"EXT_meshopt_compression"'
+write_box packed.gltf '' ",\"extensionsUsed\":[$meshopt],\"extensionsRequired\":[$meshopt]"
+refuses "EXT_meshopt_compression" packed.gltf
+write_box faulty.gltf ',"alphaMode":"BLEND"' ',"extensionsUsed":["KHR_materials_clearcoat"],
+"cameras":[{"type":"perspective","perspective":{"yfov":9,"znear":1}}]'
+sed -i.orig 's/"name":"box"/"name":"box","camera":0/' faulty.gltf
+refuses "yfov" faulty.gltf
+grep -q "^note: .*KHR_materials_clearcoat" out.txt || fail "did not say what it had noticed: $(cat out.txt)"
 status=0
 "$caustics" ring --output no-such-folder/x.png >/dev/null 2>errors.txt || status=$?
 [ $status -ne 0 ] && grep -q "no-such-folder" errors.txt || fail "wrote into a folder that does not exist"

@@ -79,7 +79,7 @@ Rendering render_builtin(const Options& options) {
     if (exact)
         report.errors = errors_against(*exact, irradiance, options.width, options.height);
     else
-        report.notes.push_back("the exact picture of " + options.scene + " is not known, so no errors are given");
+        report.note("the exact picture of " + options.scene + " is not known, so no errors are given");
     const double exposure = exposure_of(exact, irradiance);
     return {Samples{options.width, options.height, 1, std::move(irradiance)}, exposure, std::move(report)};
 }

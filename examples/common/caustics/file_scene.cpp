@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "common/caustics/file_scene.hpp"
 
-#include "common/caustics/render.hpp"
-#include "common/direct_light.hpp"
-#include "common/eye_paths.hpp"
+#include "common/caustics/assume.hpp"
+#include "common/caustics/file_layers.hpp"
+#include "common/image/read_environment.hpp"
 #include "common/scene_from_gltf.hpp"
+#include "common/stopwatch.hpp"
 
 #include "nephroid/vector/glm.hpp"
 
@@ -17,7 +18,6 @@ namespace nephroid::examples {
 namespace {
 
 using Color = glm::vec3;
-using Vertex = EyeVertex<float, Color>;
 
 void check(const Options& options) {
     if (options.view)
@@ -30,8 +30,6 @@ void check(const GltfScene<float>& gltf, const Options& options) {
     const auto fail = [&](const std::string& what) { throw std::runtime_error("'" + options.scene + "' " + what); };
     if (gltf.scene.empty())
         fail("has no triangles; add a mesh");
-    if (gltf.lamps.empty())
-        fail("has no light; add one by KHR_lights_punctual, or a mesh with an emissive material");
     if (!gltf.scene.has_specular())
         fail("has no specular surface, so it has no caustic; add glass (KHR_materials_transmission) or a smooth metal");
 }
@@ -51,47 +49,81 @@ void check(const GltfScene<float>& gltf, const Options& options) {
     return 0.7 / *bright;
 }
 
+/// The file's content; what is noticed of it is noted, also where it cannot be read.
+[[nodiscard]] SceneDescription described(const Options& options, Report& report) {
+    try {
+        SceneDescription description = read_gltf(options.scene);
+        for (const std::string& warning : description.warnings)
+            report.note(warning);
+        return description;
+    } catch (const UnreadableGltf& error) {
+        for (const std::string& warning : error.warnings)
+            report.note(warning);
+        throw;
+    }
+}
+
+/// The file's first camera, or one that shows what is specular and its light.
+[[nodiscard]] CameraDescription camera_of(const SceneDescription& description, const Additions& additions,
+                                          const FileScene& scene, const Options& options, Report& report) {
+    if (!description.cameras.empty())
+        return description.cameras.front();
+    report.note("no camera in the file: assumed one that shows what is specular and its light");
+    Box<float> box;
+    for (const glm::vec3& corner : points_of_interest(description, additions))
+        box.add(corner);
+    CameraDescription camera =
+        camera_for(box, options.height_given ? double(options.width) / double(options.height) : 1);
+    step_inside(camera, scene, 0.5f * (box.min + box.max));
+    return camera;
+}
+
+[[nodiscard]] std::shared_ptr<const Environment<float, Color>> environment_of(const std::string& name) {
+    using Around = Environment<float, Color>;
+    if (name == "constant")
+        return std::make_shared<const Around>(Around::constant(Color(1)));
+    try {
+        return std::make_shared<const Around>(Around::picture(read_environment(name)));
+    } catch (const std::invalid_argument& error) {
+        throw std::runtime_error("'" + name + "': " + error.what());
+    }
+}
+
 } // namespace
 
 Rendering render_file(Options& options) {
     check(options);
     Stopwatch total;
-    const SceneDescription description = read_gltf(options.scene);
-    const GltfScene<float> gltf = scene_from<float>(description);
+    Report report;
+    SceneDescription description = described(options, report);
+    const Additions additions = add_sun_and_ground(description, options);
+    for (const std::string& sentence : additions.assumed)
+        report.note(sentence);
+    GltfScene<float> gltf = scene_from<float>(description);
+    for (std::size_t i = description.warnings.size(); i < gltf.warnings.size(); ++i)
+        report.note(gltf.warnings[i]);
+    if (options.environment)
+        gltf.lamps.environments.push_back(environment_of(*options.environment));
     check(gltf, options);
 
-    const CameraDescription view =
-        description.cameras.empty() ? camera_for(gltf.scene.bounds()) : description.cameras.front();
+    const CameraDescription view = camera_of(description, additions, gltf.scene, options, report);
     if (!options.height_given)
         options.height = static_cast<std::size_t>((std::max)(1.0, std::round(double(options.width) / aspect_of(view))));
     const auto camera = camera_from<float>(view, options.width, options.height);
     ThreadExecutor threads(options.threads);
-
-    Report report;
     report.threads = threads.threads();
-    report.notes = gltf.warnings;
-    if (description.cameras.empty())
-        report.notes.push_back("no camera in the file: the whole scene is shown");
     Stopwatch stopwatch;
-    const auto eye = trace_eye_paths(gltf.scene, camera, {.samples = options.samples, .seed = options.seed}, threads);
+    const FileEyePaths eye = see_file_scene(gltf.scene, gltf.lamps, camera, options, threads);
     report.eye_vertices = eye.vertices.size();
     report.seconds.eye_paths = stopwatch.lap();
 
     Image<Color> picture(options.width, options.height, Color(0));
     if (options.layer != Layer::caustics) {
-        picture.pixels = direct_layer(gltf.scene, gltf.lamps, eye, {.seed = options.seed}, threads);
+        picture.pixels = direct_layer_of(gltf.scene, gltf.lamps, eye, options, threads);
         report.seconds.direct = stopwatch.lap();
     }
-    if (options.layer != Layer::direct) {
-        const EyePathMap map(eye.vertices, &Vertex::position, &Vertex::normal);
-        report.seconds.map = stopwatch.lap();
-        const auto lights = photon_lights(gltf.lamps, gltf.scene);
-        splat_caustics_timed<Color>(gltf.scene, lights, map, WalkLimits{}, options, false, threads, report,
-                                    [&](std::size_t vertex, const Color& irradiance) {
-                                        const Vertex& v = eye.vertices[vertex];
-                                        picture.pixels[v.pixel] += irradiance * v.weight;
-                                    });
-    }
+    if (options.layer != Layer::direct)
+        add_caustics_of(gltf.scene, gltf.lamps, eye, options, threads, report, picture.pixels);
     report.seconds.total = total.lap();
 
     const double exposure = exposure_of(picture.pixels);

@@ -7,7 +7,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <string_view>
 #include <vector>
 
 namespace nephroid::examples {
@@ -31,6 +34,53 @@ const Names<bool> reflections = {{"one", true}, {"any", false}};
     return s;
 }
 
+/// "-1,-2,0.5" or "-1,-2,0.5,0.53".
+[[nodiscard]] Sun sun_in(const std::string& text) {
+    const auto refuse = [&](const char* why) { throw UsageError("--sun: '" + text + "' " + why); };
+    std::vector<double> numbers;
+    for (std::size_t at = 0; at <= text.size();) {
+        const std::size_t comma = (std::min)(text.find(',', at), text.size());
+        const std::string part = text.substr(at, comma - at);
+        char* end = nullptr;
+        numbers.push_back(std::strtod(part.c_str(), &end));
+        if (part.empty() || *end != '\0' || !std::isfinite(numbers.back()))
+            refuse("is not X,Y,Z or X,Y,Z,SIZE: the direction that its light goes in, and its diameter in degrees");
+        at = comma + 1;
+    }
+    if (numbers.size() != 3 && numbers.size() != 4)
+        refuse("is not X,Y,Z or X,Y,Z,SIZE: the direction that its light goes in, and its diameter in degrees");
+    Sun sun{{numbers[0], numbers[1], numbers[2]}, numbers.size() == 4 ? numbers[3] : 0};
+    const double length = std::hypot(numbers[0], numbers[1], numbers[2]);
+    if (!(length > 1e-30) || !std::isfinite(length))
+        refuse("has no direction");
+    if (!(sun.degrees >= 0 && sun.degrees <= 90))
+        refuse("has a diameter that is not from 0 to 90 degrees");
+    return sun;
+}
+
+[[nodiscard]] double albedo_in(const std::string& text) {
+    char* end = nullptr;
+    const double albedo = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !(albedo > 0 && albedo <= 1))
+        throw UsageError("--ground: '" + text + "' is not an albedo above 0 and up to 1");
+    return albedo;
+}
+
+/// --ground may stand without a number: what follows is then the next argument.
+[[nodiscard]] std::vector<const char*> with_albedo(int argc, const char* const* argv) {
+    std::vector<const char*> arguments(argv, argv + argc);
+    for (std::size_t i = 0; i < arguments.size(); ++i) {
+        if (std::string_view(arguments[i]) != "--ground")
+            continue;
+        char* end = nullptr;
+        if (i + 1 < arguments.size())
+            (void)std::strtod(arguments[i + 1], &end);
+        if (end == nullptr || end == arguments[i + 1]) // not even the beginning of a number
+            arguments[i] = "--ground=0.8";
+    }
+    return arguments;
+}
+
 [[nodiscard]] std::string version_text() {
     return "nephroid " + std::to_string(NEPHROID_VERSION_MAJOR) + '.' + std::to_string(NEPHROID_VERSION_MINOR) + '.' +
            std::to_string(NEPHROID_VERSION_PATCH);
@@ -48,6 +98,10 @@ void check(const Options& options) {
     if (options.samples < 1 || options.samples > 4096)
         throw UsageError("--samples: " + std::to_string(options.samples) + " is not from 1 to 4096");
     check_threads(options.threads);
+    if (is_builtin(options.scene) && (options.sun || options.ground || options.environment))
+        throw UsageError("--sun, --ground and --environment: are for files; a built-in case has its own");
+    if (options.sun && options.ground && !(options.sun->direction[1] < 0))
+        throw UsageError("--sun: its light does not go down (y is upwards), so it does not reach the --ground");
     if (options.view)
         check_view(*options.view);
 }
@@ -88,11 +142,27 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     std::vector<double> view;
     app.add_option("--view", view, "x_min x_max y_min y_max: the film of a built-in case, on the floor")->expected(4);
     app.add_option("--layer", layer, "all|caustics|direct: of a file's picture [all]");
+    std::string sun, ground, environment;
+    app.add_option("--sun", sun,
+                   "X,Y,Z[,SIZE]: add one to a file, with the direction that its light goes in (y is upwards) and its "
+                   "diameter in degrees; a file without light gets one");
+    app.add_option("--ground", ground,
+                   "[ALBEDO]: add one to a file below what is specular [0.8]; a file without gets one");
+    app.add_option("--environment", environment,
+                   "constant|FILE: light from all around a file's scene, the same, or by a picture of longitude and "
+                   "latitude (.hdr, .exr, .pfm or .png)");
     app.add_option("--output", output, "The picture, .exr, .pfm or .png [the scene's name, .png]");
     app.add_option("--json", json, "A file for the statistics");
     app.add_option("--reference", reference, "A .pfm of the same size to compare with, of many photons, say");
-    if (!parse(app, argc, argv))
+    const std::vector<const char*> arguments = with_albedo(argc, argv);
+    if (!parse(app, static_cast<int>(arguments.size()), arguments.data()))
         return std::nullopt;
+    if (app.count("--sun") > 0)
+        options.sun = sun_in(sun);
+    if (app.count("--ground") > 0)
+        options.ground = albedo_in(ground);
+    if (app.count("--environment") > 0)
+        options.environment = environment;
     options.photons = whole_number("--photons", photons, 1);
     if (!emit.empty())
         options.emit = whole_number("--emit", emit, 1);

@@ -16,6 +16,12 @@ namespace nephroid::examples {
 enum class KernelKind { biweight, epanechnikov, cone, uniform, gaussian };
 enum class Layer { all, caustics, direct };
 
+/// A sun that is added to a file's scene.
+struct Sun {
+    std::array<double, 3> direction{}; ///< that its light goes in, any length but zero
+    double degrees = 0;                ///< its angular diameter; 0: all its light goes one way
+};
+
 struct Options {
     std::string scene;                     ///< the name of a built-in case or a .glb or .gltf file
     std::uint64_t photons = 20'000;        ///< caustic photons wanted
@@ -36,6 +42,9 @@ struct Options {
     bool one_reflection = false;                    ///< of the ring: discard what would be reflected twice
     std::optional<std::array<double, 4>> view;      ///< x_min, x_max, y_min, y_max of a built-in case's film
     Layer layer = Layer::all;                       ///< of a file's picture
+    std::optional<Sun> sun;                         ///< added to a file's scene
+    std::optional<double> ground;                   ///< the albedo of one that is added to a file's scene
+    std::optional<std::string> environment;         ///< around a file's scene: "constant" or a picture's path
     std::filesystem::path output;                   ///< the picture: .exr, .pfm or .png
     std::optional<std::filesystem::path> json;      ///< the statistics
     std::optional<std::filesystem::path> reference; ///< a .pfm to compare the picture with

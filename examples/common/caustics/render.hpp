@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/caustic_photons.hpp"
+#include "common/caustics/interrupt.hpp"
 #include "common/caustics/progress.hpp"
 #include "common/caustics/report.hpp"
 #include "common/stopwatch.hpp"
@@ -69,7 +70,7 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
             PhotonPass pass{
                 .count = emit, .smoothing = options.smoothing, .limits = limits, .progress = [&](std::uint64_t done) {
                     progress.show(done);
-                    return true;
+                    return !is_interrupted();
                 }};
             with_policies(options, kernel, repeats, [&](const auto& policies) {
                 TimingExecutor timing(threads);
@@ -81,7 +82,13 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 report.seconds.trace += timing.trace_seconds();
                 report.seconds.fit += timing.fit_seconds();
                 report.seconds.splat += timing.splat_seconds();
-                sums.for_each(sink);
+                report.interrupted = report.statistics.emitted.photons < emit;
+                if (!report.interrupted) {
+                    sums.for_each(sink);
+                } else if (report.statistics.emitted.photons > 0) { // fewer photons stand for all of the light
+                    const float share = float(double(emit) / double(report.statistics.emitted.photons));
+                    sums.for_each([&](std::size_t vertex, const F& e) { sink(vertex, F(e * share)); });
+                }
             });
         },
         make_kernel(options), make_sequence(options.sequence, options.seed));

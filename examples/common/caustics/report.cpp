@@ -6,7 +6,7 @@
 #include "nephroid/pass/diagnose.hpp"
 
 #include <cmath>
-#include <ostream>
+#include <iostream>
 #include <utility>
 #include <vector>
 
@@ -45,6 +45,11 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
 
 } // namespace
 
+void Report::note(const std::string& text) {
+    notes.push_back(text);
+    std::cout << "note: " << text << std::endl;
+}
+
 void print_table(std::ostream& out, const Options& options, const Report& report) {
     const Statistics& statistics = report.statistics;
     out << "caustics " << options.scene << (report.smoothing ? text(", s = %g, ", *report.smoothing) : ", ")
@@ -55,8 +60,6 @@ void print_table(std::ostream& out, const Options& options, const Report& report
         << (options.pixel_filter ? "" : ", no pixel filter")
         << text(", %zu x %zu, %u thread%s\n", options.width, options.height, report.threads,
                 report.threads == 1 ? "" : "s");
-    for (const std::string& note : report.notes)
-        out << "note: " << note << '\n';
     for (const std::string& sentence : diagnose(statistics))
         out << "note: " << sentence << '\n';
     line(out, "photons emitted", grouped(statistics.emitted.photons));
@@ -127,7 +130,9 @@ std::string json_text(const Options& options, const Report& report) {
            {"flux emitted", json_number(statistics.emitted.flux)},
            {"flux accounted", json_number(statistics.accounted_flux())},
            {"fates", json_object(fates, "  ")},
-           {"seconds", json_object(seconds, "  ")}};
+           {"seconds", json_object(seconds, "  ")},
+           {"interrupted", report.interrupted ? "true" : "false"},
+           {"notes", json_array(report.notes)}};
     if (report.errors)
         top.push_back({"errors", json_object({{"rel", json_number(report.errors->relative)},
                                               {"clipped RMSE", json_number(report.errors->rmse)},

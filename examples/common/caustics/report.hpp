@@ -26,6 +26,10 @@ struct Report {
     std::optional<double> smoothing; ///< s of all photons; nothing: chosen for each
     std::optional<Errors> errors;    ///< where the truth is known
     std::vector<std::string> notes;  ///< on what is shown otherwise than the scene says
+    bool interrupted = false;        ///< the picture has the photons that there were when the user wanted no more
+
+    /// Keeps a note, and prints it at once: what follows may fail.
+    void note(const std::string& text);
 };
 
 void print_table(std::ostream& out, const Options& options, const Report& report);

@@ -115,16 +115,18 @@ Sparse sparse_part(const tinygltf::Model& model, const tinygltf::Accessor& acces
             elements(model, sparse.values.bufferView, values_offset, count, element_size, element_size, name)};
 }
 
-AccessorView view_accessor(const tinygltf::Model& model, int index, int type, std::string_view owner) {
+/// @param components  of an element, 1 to 4
+AccessorView view_accessor(const tinygltf::Model& model, int index, int components, std::string_view owner) {
     AccessorView view;
     view.index = checked_index(index, model.accessors.size(), owner, "accessor");
     view.accessor = &model.accessors[view.index];
     const tinygltf::Accessor& accessor = *view.accessor;
     const std::string name = named("accessor", view.index, accessor.name);
-    const std::size_t components = type == TINYGLTF_TYPE_VEC3 ? 3 : 1;
-    const std::size_t size = components * component_size(accessor.componentType);
+    const int type = components == 1 ? TINYGLTF_TYPE_SCALAR : components; // VEC2 to VEC4 are 2 to 4
+    const std::size_t size = static_cast<std::size_t>(components) * component_size(accessor.componentType);
     if (accessor.type != type || size == 0)
-        fail({owner, " wants ", components == 3 ? "VEC3" : "SCALAR", " elements, which ", name, " does not have"});
+        fail({owner, " wants ", components == 1 ? "SCALAR" : "VEC" + std::to_string(components), " elements, which ",
+              name, " does not have"});
     view.count = accessor.count;
     if (view.count == 0)
         fail({name, " has no elements"});
@@ -165,10 +167,24 @@ std::vector<Element> read(const tinygltf::Model& model, const AccessorView& view
     }
     return result;
 }
+
+template <int Components>
+std::vector<glm::vec<Components, float>> read_floats(const tinygltf::Model& model, const AccessorView& view) {
+    using Vector = glm::vec<Components, float>;
+    const int type = view.accessor->componentType;
+    const bool normalized = view.accessor->normalized;
+    const std::size_t step = component_size(type);
+    return read<Vector>(model, view, Components * step, [=](const unsigned char* at) {
+        Vector result(0);
+        for (int i = 0; i < Components; ++i)
+            result[i] = component_at(at + static_cast<std::size_t>(i) * step, type, normalized);
+        return result;
+    });
+}
 } // namespace
 
-AccessorView view_vectors(const tinygltf::Model& model, int index, std::string_view owner) {
-    const AccessorView view = view_accessor(model, index, TINYGLTF_TYPE_VEC3, owner);
+AccessorView view_vectors(const tinygltf::Model& model, int index, std::string_view owner, int components) {
+    const AccessorView view = view_accessor(model, index, components, owner);
     if (view.accessor->componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
         fail(
             {named("accessor", view.index, view.accessor->name), " has vectors of 32-bit integers, not legal in glTF"});
@@ -176,20 +192,22 @@ AccessorView view_vectors(const tinygltf::Model& model, int index, std::string_v
 }
 
 AccessorView view_indices(const tinygltf::Model& model, int index, std::string_view owner) {
-    const AccessorView view = view_accessor(model, index, TINYGLTF_TYPE_SCALAR, owner);
+    const AccessorView view = view_accessor(model, index, 1, owner);
     if (!is_index_type(view.accessor->componentType))
         fail({named("accessor", view.index, view.accessor->name), " has indices that are not unsigned integers"});
     return view;
 }
 
 std::vector<glm::vec3> read_vectors(const tinygltf::Model& model, const AccessorView& view) {
-    const int type = view.accessor->componentType;
-    const bool normalized = view.accessor->normalized;
-    const std::size_t step = component_size(type);
-    return read<glm::vec3>(model, view, 3 * step, [=](const unsigned char* at) {
-        return glm::vec3(component_at(at, type, normalized), component_at(at + step, type, normalized),
-                         component_at(at + 2 * step, type, normalized));
-    });
+    return read_floats<3>(model, view);
+}
+
+std::vector<glm::vec2> read_pairs(const tinygltf::Model& model, const AccessorView& view) {
+    return read_floats<2>(model, view);
+}
+
+std::vector<glm::vec4> read_quadruples(const tinygltf::Model& model, const AccessorView& view) {
+    return read_floats<4>(model, view);
 }
 
 std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, const AccessorView& view) {

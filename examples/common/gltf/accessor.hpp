@@ -4,7 +4,9 @@
 
 #include "common/gltf/tinygltf.hpp"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -24,14 +26,17 @@ struct AccessorView {
 
 /// Finds an accessor and checks its type, its component type and its bounds, those of its sparse part included.
 ///
-/// @param index  as the file has it; @param owner  of the index, for messages
-AccessorView view_vectors(const tinygltf::Model& model, int index, std::string_view owner);
+/// @param index       as the file has it; @param owner  of the index, for messages
+/// @param components  of each vector, 2 to 4
+AccessorView view_vectors(const tinygltf::Model& model, int index, std::string_view owner, int components = 3);
 
 /// The same for an accessor of indices: unsigned scalars.
 AccessorView view_indices(const tinygltf::Model& model, int index, std::string_view owner);
 
 /// All elements of what `view_vectors` found: floats as they are, integers converted or normalized as glTF says.
 std::vector<glm::vec3> read_vectors(const tinygltf::Model& model, const AccessorView& view);
+std::vector<glm::vec2> read_pairs(const tinygltf::Model& model, const AccessorView& view);
+std::vector<glm::vec4> read_quadruples(const tinygltf::Model& model, const AccessorView& view);
 
 /// All elements of what `view_indices` found.
 std::vector<std::uint32_t> read_indices(const tinygltf::Model& model, const AccessorView& view);

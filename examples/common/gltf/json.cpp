@@ -92,6 +92,11 @@ private:
         } else if (at_uri_) {
             has_uri_ = !word.empty();
             at_uri_ = false;
+        } else if (open_ == "{[") {
+            if (section_ == "extensionsRequired")
+                survey_.required_extensions.emplace_back(word);
+            else if (section_ == "extensionsUsed")
+                survey_.used_extensions.emplace_back(word);
         }
     }
 

@@ -4,12 +4,15 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace nephroid::examples::gltf {
 
 struct JsonSurvey {
     bool has_animations = false;
     std::size_t buffers_without_uri = 0; ///< each takes a copy of the binary chunk
+    std::vector<std::string> used_extensions, required_extensions;
 };
 
 /// Renames in place the sections that are not read ("images" to "_mages"; the others are textures, samplers, skins and

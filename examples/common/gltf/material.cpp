@@ -82,6 +82,17 @@ glm::vec3 color_from(const std::vector<double>& factors, std::string_view owner,
             to_float(factors[2], owner, property)};
 }
 
+/// Of a surface by its opacity. Source: glTF 2.0, section 3.9.4, alpha coverage.
+float coverage_of(const tinygltf::Material& material, std::string_view owner, const Clamp& clamp) {
+    const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
+    const float alpha = factor.size() < 4 ? 1.f : clamp(to_float(factor[3], owner, "opacity"), "opacity");
+    if (material.alphaMode == "BLEND")
+        return alpha;
+    if (material.alphaMode == "MASK")
+        return double{alpha} >= material.alphaCutoff ? 1.f : 0.f;
+    return 1;
+}
+
 bool is_textured(const tinygltf::Material& material) {
     const auto& surface = material.pbrMetallicRoughness;
     if (surface.baseColorTexture.index >= 0 || surface.metallicRoughnessTexture.index >= 0 ||
@@ -106,8 +117,7 @@ MaterialDescription read_material(const tinygltf::Material& material, std::size_
     result.roughness = clamp(to_float(surface.roughnessFactor, owner, "roughnessFactor"), "roughnessFactor");
     if (is_textured(material))
         warnings.add(owner + " has textures; only its factors are used");
-    if (material.alphaMode == "BLEND" || material.alphaMode == "MASK")
-        warnings.add(owner + " is partly transparent by its opacity, which is not read; it is taken as opaque");
+    result.coverage = coverage_of(material, owner, clamp);
 
     const Extension transmission(material, "KHR_materials_transmission", owner);
     result.transmission = clamp(transmission.number("transmissionFactor", 0), "transmissionFactor");

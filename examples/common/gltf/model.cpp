@@ -20,9 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 6> read_extensions{
-    "KHR_lights_punctual", "KHR_mesh_quantization", "KHR_materials_transmission",
-    "KHR_materials_ior",   "KHR_materials_volume",  "KHR_materials_emissive_strength",
+constexpr std::array<std::string_view, 7> read_extensions{
+    "KHR_lights_punctual",  "KHR_mesh_quantization",           "KHR_materials_transmission", "KHR_materials_ior",
+    "KHR_materials_volume", "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",
 };
 
 /// They say only how images are stored or placed, and images are not read.
@@ -181,13 +181,13 @@ void check_version(const tinygltf::Asset& asset) {
         fail({"it needs a reader for glTF ", version, "; this one reads 2.0"});
 }
 
-void check_extensions(const tinygltf::Model& model, Warnings& warnings) {
-    for (const std::string& extension : model.extensionsRequired)
+void check_extensions(const JsonSurvey& survey, Warnings& warnings) {
+    for (const std::string& extension : survey.required_extensions)
         if (!is_read(extension))
-            fail({"it requires the extension ", extension, ", which is not read; export it without"});
-    for (const std::string& extension : model.extensionsUsed)
+            fail({"it requires the extension ", one_line(extension), ", which is not read; export it without"});
+    for (const std::string& extension : survey.used_extensions)
         if (!is_read(extension))
-            warnings.add("the extension " + extension + " is not read");
+            warnings.add("the extension " + one_line(extension) + " is not read");
 }
 } // namespace
 
@@ -209,6 +209,7 @@ tinygltf::Model load_model(std::span<const unsigned char> file, const std::files
     const Chunk json = binary ? prepare_glb(bytes) : Chunk{0, bytes.size(), 0};
     char* const text = reinterpret_cast<char*>(bytes.data() + json.offset);
     const JsonSurvey survey = prepare_json({text, json.size});
+    check_extensions(survey, warnings); // what is not read may well be the reason for what follows
     if (survey.has_animations)
         warnings.add("animations are not read; the scene is as its nodes stand");
     if (survey.buffers_without_uri > 1)
@@ -231,10 +232,8 @@ tinygltf::Model load_model(std::span<const unsigned char> file, const std::files
     } catch (const std::out_of_range&) {
         fail({"a buffer of 0 bytes"}); // tinygltf takes the address of its first byte
     }
-    if (!model.asset.version.empty()) { // what is not read may well be the reason for what follows
+    if (!model.asset.version.empty())
         check_version(model.asset);
-        check_extensions(model, warnings);
-    }
     if (!complete || !error.empty()) // tinygltf leaves out broken primitives and goes on
         fail({"broken glTF: ", error.empty() ? "tinygltf does not say why" : error});
     return model;

@@ -28,6 +28,7 @@
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
 #include <ImfIO.h>
+#include <ImfInputFile.h>
 #include <ImfOutputFile.h>
 #if defined(__GNUC__)
 #pragma GCC diagnostic pop
@@ -82,9 +83,49 @@ void encode(Imf::OStream& stream, const Samples& image) {
     file.writePixels(static_cast<int>(image.height));
 }
 
+Samples decode(const std::filesystem::path& path) {
+    Imf::InputFile file(path.string().c_str());
+    const auto& window = file.header().dataWindow();
+    const Imf::ChannelList& channels = file.header().channels();
+    const bool is_grey = channels.findChannel("R") == nullptr;
+    if (is_grey && channels.findChannel("Y") == nullptr)
+        throw std::runtime_error("it has neither a channel R nor Y");
+    Samples picture(static_cast<std::size_t>(window.max.x - window.min.x + 1),
+                    static_cast<std::size_t>(window.max.y - window.min.y + 1), is_grey ? 1 : 3, {});
+    const std::size_t row = picture.width * picture.channels;
+    constexpr std::size_t most = std::size_t{1} << 30;
+    if (row > most / picture.height)
+        throw std::runtime_error("it is too large");
+    std::vector<float> top_down(row * picture.height, 0.f);
+    Imf::FrameBuffer frame;
+    const char* const names[] = {"R", "G", "B"};
+    // OpenEXR counts from the window's origin.
+    const std::ptrdiff_t before =
+        window.min.y * static_cast<std::ptrdiff_t>(row) + window.min.x * static_cast<std::ptrdiff_t>(picture.channels);
+    for (std::size_t channel = 0; channel < picture.channels; ++channel)
+        frame.insert(is_grey ? "Y" : names[channel],
+                     Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(top_down.data() - before + channel),
+                                picture.channels * sizeof(float), row * sizeof(float)));
+    file.setFrameBuffer(frame);
+    file.readPixels(window.min.y, window.max.y);
+    for (std::size_t y = picture.height; y-- > 0;)
+        picture.samples.insert(picture.samples.end(), top_down.data() + y * row, top_down.data() + (y + 1) * row);
+    return picture;
+}
+
 } // namespace
 
 bool has_openexr() { return true; }
+
+Samples read_exr(const std::filesystem::path& path) {
+    try {
+        return decode(path);
+    } catch (const std::exception& error) {
+        std::string reason = error.what();
+        std::replace(reason.begin(), reason.end(), '\n', ' ');
+        throw std::runtime_error("cannot read '" + path.string() + "': " + reason);
+    }
+}
 
 void write_exr(const std::filesystem::path& path, const Samples& image) {
     require_writable_samples("write_exr", image);
@@ -110,6 +151,10 @@ namespace nephroid::examples {
 bool has_openexr() { return false; }
 
 void write_exr(const std::filesystem::path& path, const Samples&) { require_openexr(path); }
+
+Samples read_exr(const std::filesystem::path& path) {
+    throw std::runtime_error("cannot read '" + path.string() + "': this program was built without OpenEXR");
+}
 
 } // namespace nephroid::examples
 

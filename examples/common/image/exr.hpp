@@ -20,4 +20,8 @@ void require_openexr(const std::filesystem::path& path);
 /// for a build without OpenEXR or a file that cannot be written, of which then nothing is left behind.
 void write_exr(const std::filesystem::path& path, const Samples& image);
 
+/// Reads the channels R, G and B, or Y alone. Row 0 is the bottom one.
+/// Throws std::runtime_error, one line with the path and the reason, also for a build without OpenEXR.
+[[nodiscard]] Samples read_exr(const std::filesystem::path& path);
+
 } // namespace nephroid::examples

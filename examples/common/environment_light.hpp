@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/// @file  An environment as a lamp for photons, aimed at what is specular.
+#pragma once
+
+#include "common/environment.hpp"
+
+#include "nephroid/emission/aligned_basis.hpp"
+#include "nephroid/emission/light.hpp"
+#include "nephroid/emission/target.hpp"
+
+#include <memory>
+#include <utility>
+
+namespace nephroid::examples {
+
+/// For each direction, drawn by how much light comes from it, a disk across that covers the target, so far out that it
+/// lies in front of the whole scene: what stands between casts its shadow. Draws 4 samples: two for the place on the
+/// disk, two for the direction.
+template <class T, Flux F>
+class EnvironmentLight {
+public:
+    using vector = Vec3<T>;
+    using flux_type = F;
+    static constexpr EmissionDomain domain{.coordinates = 4, .kinks = {Kinks::diagonals, Kinks::unknown}};
+
+    /// @param scene  a sphere about all that may cast a shadow
+    EnvironmentLight(std::shared_ptr<const Environment<T, F>> environment, const BoundingSphere<Vec3<T>>& target,
+                     const BoundingSphere<Vec3<T>>& scene)
+        : environment_(std::move(environment)), target_(target),
+          back_((scene.radius + length(Vec3<T>(scene.center - target.center))) * T(1.001)) {}
+
+    template <SampleSource<T> Source>
+    [[nodiscard]] Photon<Vec3<T>, F> emit(Source& samples, const Spread<T>& spread) const {
+        const T u1 = samples.template next<T>(), u2 = samples.template next<T>();
+        const double u3 = double(samples.template next<T>()), u4 = double(samples.template next<T>());
+        const auto from = environment_->sample(u3, u4);
+        const Vec3<T> direction = -from.towards;
+        const AlignedBasis<Vec3<T>> basis = aligned_basis(direction, direction);
+        const DiskPoint<T> disk = concentric_disk(u1, u2);
+        const T area = pi<T> * square(target_.radius), stands_for = T(1) / from.density;
+        const Vec3<T> place = target_.radius * (disk.x * basis.u + disk.y * basis.v);
+        // The disk turns about the target as the direction turns: what is added here is gone when the photon is there.
+        const T d_position = spread.length(area), d_direction = spread.length(stands_for);
+        const auto tangent = [&](const Vec3<T>& across) {
+            return Tangent<Vec3<T>>{(d_position - back_ * d_direction) * across, d_direction * across};
+        };
+        return {target_.center + place - back_ * direction,
+                direction,
+                static_cast<F>(from.radiance * (stands_for * area / spread.photons)),
+                {tangent(basis.theta), tangent(basis.phi)}};
+    }
+
+    /// Exact but for what is interpolated between a picture's pixels.
+    [[nodiscard]] double power() const { return environment_->total() * double(pi<T> * square(target_.radius)); }
+
+private:
+    std::shared_ptr<const Environment<T, F>> environment_;
+    BoundingSphere<Vec3<T>> target_;
+    T back_;
+};
+
+} // namespace nephroid::examples

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/// @file  Images that others wrote: the textures of glTF files, and Radiance's .hdr.
+#pragma once
+
+#include "common/image/image.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace nephroid::examples {
+
+/// Red, green, blue and opacity, 8 bits each, as the file has them; row 0 at the *top*, as glTF's coordinates have it.
+struct DecodedImage {
+    std::size_t width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;
+};
+
+/// Pixels of a PNG or JPEG in memory, from its header alone; 0 for what is neither.
+[[nodiscard]] std::size_t pixels_of_image(std::span<const unsigned char> file);
+
+/// Decodes a PNG or JPEG. Throws std::runtime_error with the reason, in a few words, for what is neither.
+[[nodiscard]] DecodedImage decode_image(std::span<const unsigned char> file);
+
+/// Reads Radiance's .hdr. Throws std::runtime_error, one line with the path and the reason.
+[[nodiscard]] Samples read_hdr(const std::filesystem::path& path);
+
+} // namespace nephroid::examples
