@@ -106,13 +106,13 @@ write_box() { # file, material, more
 {"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"box"}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]}],
 "materials":[{"name":"glass","pbrMetallicRoughness":{"metallicFactor":0,"roughnessFactor":0},"extensions":
-{"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_volume":{"thicknessFactor":1}}$2}],
+{"KHR_materials_transmission":{"transmissionFactor":1},"KHR_materials_volume":{"thicknessFactor":1}}${2:-}}],
 "accessors":[{"bufferView":0,"componentType":5126,"count":8,"type":"VEC3"},
 {"bufferView":1,"componentType":5121,"count":36,"type":"SCALAR"}],
 "bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":36}],
 "buffers":[{"byteLength":132,"uri":"data:application/octet-stream;base64,\
 AAAAvwAAAAAAAAC/AAAAvwAAAAAAAAA/AAAAvwAAgD8AAAC/AAAAvwAAgD8AAAA/AAAAPwAAAAAAAAC/AAAAPwAA\
-AAAAAAA/AAAAPwAAgD8AAAC/AAAAPwAAgD8AAAA/AAEDAAMCBAYHBAcFAAQFAAUBAgMHAgcGAAIGAAYEAQUHAQcD"}]$3}
+AAAAAAA/AAAAPwAAgD8AAAC/AAAAPwAAgD8AAAA/AAEDAAMCBAYHBAcFAAQFAAUBAgMHAgcGAAIGAAYEAQUHAQcD"}]${3:-}}
 END
 }
 write_box box.gltf
