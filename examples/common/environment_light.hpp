@@ -27,7 +27,7 @@ public:
     EnvironmentLight(std::shared_ptr<const Environment<T, F>> environment, const BoundingSphere<Vec3<T>>& target,
                      const BoundingSphere<Vec3<T>>& scene)
         : environment_(std::move(environment)), target_(target),
-          back_((scene.radius + length(Vec3<T>(scene.center - target.center))) * T(1.001)) {}
+          back_((scene.radius + length(Vec3<T>(scene.centre - target.centre))) * T(1.001)) {}
 
     template <SampleSource<T> Source>
     [[nodiscard]] Photon<Vec3<T>, F> emit(Source& samples, const Spread<T>& spread) const {
@@ -44,7 +44,7 @@ public:
         const auto tangent = [&](const Vec3<T>& across) {
             return Tangent<Vec3<T>>{(d_position - back_ * d_direction) * across, d_direction * across};
         };
-        return {target_.center + place - back_ * direction,
+        return {target_.centre + place - back_ * direction,
                 direction,
                 static_cast<F>(from.radiance * (stands_for * area / spread.photons)),
                 {tangent(basis.theta), tangent(basis.phi)}};

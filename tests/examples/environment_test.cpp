@@ -133,7 +133,7 @@ TEST_CASE("environment light: it is a light as the library wants it, with the fl
         check_same<double>(flux, light.power(), is_picture ? 0.01 * light.power() : 0);
         for (std::uint64_t i = 0; i < 100; ++i) { // in front of all that may cast a shadow
             const auto photon = nephroid::tests::photon_of(light, i, 1);
-            CHECK(dot(photon.position - scene.center, photon.direction) < -scene.radius * 0.999);
+            CHECK(dot(photon.position - scene.centre, photon.direction) < -scene.radius * 0.999);
         }
     }
 }
@@ -147,8 +147,8 @@ TEST_CASE("environment light: the same light from everywhere is the same on ever
         for (std::uint64_t i = 0; i < 40000; ++i) {
             const auto photon = nephroid::tests::photon_of(light, i, 1);
             const double cosine = -dot(photon.direction, normal);
-            const V at = photon.position + dot(photon.position - target.center, normal) / cosine * photon.direction;
-            flux.add(cosine > 0 && length(V(at - target.center)) < 0.4 ? photon.flux : 0);
+            const V at = photon.position + dot(photon.position - target.centre, normal) / cosine * photon.direction;
+            flux.add(cosine > 0 && length(V(at - target.centre)) < 0.4 ? photon.flux : 0);
         }
         check_same<double>(flux, 2 * pi<double> * pi<double> * 0.16);
     }
@@ -161,7 +161,7 @@ TEST_CASE("environment light: footprints are those of the disk at the target, an
     for (const auto& around : all_kinds()) {
         const EnvironmentLight<double, double> light(around, target, scene);
         const auto photon = nephroid::tests::photon_of(light, 5, 1000);
-        const double to_disk = dot(target.center - photon.position, photon.direction);
+        const double to_disk = dot(target.centre - photon.position, photon.direction);
         const auto flight = transfer(photon.direction, to_disk, photon.direction);
         REQUIRE(flight.has_value());
         for (const auto& tangent : photon.differential)
