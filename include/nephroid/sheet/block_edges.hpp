@@ -2,12 +2,15 @@
 /// @file  From the corners of a few neighbouring quads to the edges across which the density of light jumps.
 #pragma once
 
-#include "nephroid/sheet/sheet_block.hpp"
+#include "nephroid/sheet/double3.hpp"
+#include "nephroid/sheet/edge_pages.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 namespace nephroid::detail {
 
@@ -40,32 +43,34 @@ public:
     [[nodiscard]] double largest() const { return largest_; }
 
     /// Appends the edges, eight to a group; the last one is filled up with edges without a jump.
-    void append_to(std::vector<EdgeGroup<T>>& edges) {
+    [[nodiscard]] std::span<const EdgeGroup<T>> append_to(EdgePages<T>& pages) {
         const std::size_t columns = grid_.columns, rows = grid_.rows;
         for (std::size_t j = 0; j <= rows; ++j)
             for (std::size_t i = 0; i < columns; ++i)
-                add(edges, {j, i}, {j, i + 1},
-                    (j < rows ? quads_[j][i].side[0] : 0) - (j > 0 ? quads_[j - 1][i].side[2] : 0));
+                add({j, i}, {j, i + 1}, beside(j, i).below - beside(j - 1, i).above);
         for (std::size_t j = 0; j < rows; ++j)
             for (std::size_t i = 0; i <= columns; ++i)
-                add(edges, {j, i}, {j + 1, i},
-                    (i > 0 ? quads_[j][i - 1].side[1] : 0) - (i < columns ? quads_[j][i].side[3] : 0));
+                add({j, i}, {j + 1, i}, beside(j, i - 1).right - beside(j, i).left);
         for (std::size_t j = 0; j < rows; ++j)
             for (std::size_t i = 0; i < columns; ++i)
-                if (is_forward(j, i))
-                    add(edges, {j, i}, {j + 1, i + 1}, quads_[j][i].diagonal);
-                else
-                    add(edges, {j, i + 1}, {j + 1, i}, quads_[j][i].diagonal);
+                add({j, is_forward(j, i) ? i : i + 1}, {j + 1, is_forward(j, i) ? i + 1 : i}, beside(j, i).diagonal);
+        return written_to(pages);
     }
 
 private:
     using Corner = std::array<std::size_t, 2>; // row, column
 
-    /// Densities beside a quad's sides, counter-clockwise from the one along u, and their jump across its diagonal.
+    static constexpr std::size_t lanes = EdgeGroup<T>::lanes;
+    static constexpr std::size_t most_edges =
+        (2 * (QuadGrid::most + 1) * QuadGrid::most + QuadGrid::most * QuadGrid::most + lanes - 1) / lanes * lanes;
+
+    /// Densities beside a quad's sides, and their jump across its diagonal.
     struct Quad {
-        std::array<double, 4> side{};
-        double diagonal = 0;
+        double below = 0, right = 0, above = 0, left = 0, diagonal = 0;
     };
+
+    /// A quad, or the darkness beside the block for j or i of −1 or beyond the last.
+    [[nodiscard]] const Quad& beside(std::size_t j, std::size_t i) const { return quads_[j + 1][i + 1]; }
 
     /// Whether a quad is cut from its first corner to the opposite one; neighbours take turns.
     [[nodiscard]] static bool is_forward(std::size_t j, std::size_t i) { return ((i + j) & 1) == 0; }
@@ -88,7 +93,7 @@ private:
         const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
         const double smaller = (std::min)(std::abs(*least), std::abs(*most));
         const double larger = (std::max)(std::abs(*least), std::abs(*most));
-        Quad& quad = quads_[j][i];
+        Quad& quad = quads_[j + 1][i + 1];
         const auto density = [&](double signed_area, double share, const Corner& p, const Corner& q, const Corner& r) {
             // Below this rounding of its corners would show in its density.
             const double least_area = 2e-4 * pixel_ * (std::max)(pixel_, std::sqrt(longest2(p, q, r)));
@@ -105,35 +110,57 @@ private:
             square(smaller) >= 4e-8 * square(pixel_) * (std::max)(longest2(a, b, c), longest2(a, c, d))) {
             const double w = grid_.share / (corners[1] + corners[3]);
             largest_ = (std::max)(largest_, std::abs(w));
-            quad.side = {w, w, w, w};
+            quad = {w, w, w, w, 0};
         } else if (is_forward(j, i)) {
             const double right = density(corners[1], half, a, b, c), left = density(corners[3], half, a, c, d);
-            quad = {{right, right, left, left}, left - right};
+            quad = {right, right, left, left, left - right};
         } else {
             const double left = density(corners[0], half, a, b, d), right = density(corners[2], half, b, c, d);
-            quad = {{left, right, right, left}, left - right};
+            quad = {left, right, right, left, left - right};
         }
     }
 
-    void add(std::vector<EdgeGroup<T>>& edges, const Corner& from, const Corner& to, double jump) {
-        if (jump == 0)
-            return;
-        if (lane_ == EdgeGroup<T>::lanes) {
-            edges.emplace_back();
-            lane_ = 0;
-        }
-        EdgeGroup<T>& group = edges.back();
-        const Double3 &a = grid_.corner[from[0]][from[1]], &b = grid_.corner[to[0]][to[1]];
-        group.a[0][lane_] = T(a.x), group.a[1][lane_] = T(a.y), group.a[2][lane_] = T(a.z);
-        group.b[0][lane_] = T(b.x), group.b[1][lane_] = T(b.y), group.b[2][lane_] = T(b.z);
-        group.jump[lane_++] = T(jump);
+    /// Lists an edge unless nothing jumps across it, without a branch.
+    void add(const Corner& from, const Corner& to, double jump) {
+        from_[count_] = number(from);
+        to_[count_] = number(to);
+        jump_[count_] = T(jump);
+        count_ += std::size_t(jump != 0);
+    }
+
+    [[nodiscard]] static std::uint8_t number(const Corner& c) {
+        return std::uint8_t(c[0] * (QuadGrid::most + 1) + c[1]);
+    }
+
+    [[nodiscard]] std::span<const EdgeGroup<T>> written_to(EdgePages<T>& pages) {
+        const std::size_t groups = (count_ + lanes - 1) / lanes;
+        for (; count_ < groups * lanes; ++count_)
+            from_[count_] = to_[count_] = 0, jump_[count_] = T(0);
+        constexpr std::size_t side = QuadGrid::most + 1;
+        std::array<std::array<T, side * side>, 3> corner{};
+        for (std::size_t j = 0; j <= grid_.rows; ++j)
+            for (std::size_t i = 0; i <= grid_.columns; ++i) {
+                const Double3& c = grid_.corner[j][i];
+                corner[0][j * side + i] = T(c.x), corner[1][j * side + i] = T(c.y), corner[2][j * side + i] = T(c.z);
+            }
+        const std::span<EdgeGroup<T>> room = pages.add(groups);
+        for (std::size_t g = 0; g < groups; ++g)
+            for (std::size_t i = 0; i < lanes; ++i) {
+                const std::size_t from = from_[g * lanes + i], to = to_[g * lanes + i];
+                for (std::size_t axis = 0; axis < 3; ++axis)
+                    room[g].a[axis][i] = corner[axis][from], room[g].b[axis][i] = corner[axis][to];
+                room[g].jump[i] = jump_[g * lanes + i];
+            }
+        return room;
     }
 
     const QuadGrid& grid_;
     double pixel_;
-    std::array<std::array<Quad, QuadGrid::most>, QuadGrid::most> quads_;
+    std::array<std::array<Quad, QuadGrid::most + 2>, QuadGrid::most + 2> quads_{}; // a rim of darkness around them
+    std::array<std::uint8_t, most_edges + 1> from_, to_;                           // corners of the edges listed
+    std::array<T, most_edges + 1> jump_;
+    std::size_t count_ = 0;
     double largest_ = 0;
-    std::size_t lane_ = EdgeGroup<T>::lanes;
 };
 
 } // namespace nephroid::detail

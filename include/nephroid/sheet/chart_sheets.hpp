@@ -71,7 +71,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t tiles_per_batch = 64;
+    static constexpr std::size_t tiles_per_batch = 32;
 
     void trace(const Lattice& lattice, const CellRange& sector, SheetStatistics& statistics) {
         traced_.assign(1024, {});

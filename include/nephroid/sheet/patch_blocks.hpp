@@ -5,6 +5,7 @@
 #include "nephroid/sheet/block_edges.hpp"
 #include "nephroid/sheet/lit_patch.hpp"
 #include "nephroid/sheet/patch_bounds.hpp"
+#include "nephroid/sheet/sheet_block.hpp"
 #include "nephroid/sheet/tessellation.hpp"
 
 #include <algorithm>
@@ -137,7 +138,7 @@ private:
                 grid.corner[j][i] = {double(T(c.x)), double(T(c.y)), double(T(c.z))};
                 grid.in_plane[j][i] = {dot(grid.corner[j][i], plane.u), dot(grid.corner[j][i], plane.v)};
             }
-        block.box = narrowed_box<T>(grown(box, 0));
+        block.box = narrowed_box<T>(grown(box, thickness_));
         block.normal = {T(normal.x), T(normal.y), T(normal.z)};
         block.thickness = T(thickness_);
         set_sides(block, grid, normal);
@@ -150,11 +151,9 @@ private:
                 {middle + grid.corner[a[0]][a[1]], middle + grid.corner[b[0]][b[1]], middle + grid.corner[c[0]][c[1]]},
                 normal, direction, F(patch.flux * T(share)), pieces, visit);
         });
-        block.first = std::uint32_t(pieces.edges.size());
-        edges.append_to(pieces.edges);
-        block.size = std::uint32_t(pieces.edges.size()) - block.first;
+        block.edges = edges.append_to(pieces.edges);
         block.doubtful = T(17) * std::numeric_limits<T>::epsilon() * T(edges.largest());
-        return block.size > 0 ? pass_on(block, pieces, visit) : is_seen;
+        return !block.edges.empty() ? pass_on(block, pieces, visit) : is_seen;
     }
 
     /// Lies every leaf beside the box?
@@ -189,13 +188,13 @@ private:
         Box<double> box = box_about(corners[0]);
         for (const Double3& c : corners)
             include(box, c);
-        block.box = narrowed_box<T>(box);
+        block.box = narrowed_box<T>(grown(box, thickness_));
         block.middle = {T(corners[0].x), T(corners[0].y), T(corners[0].z)};
         block.normal = {T(normal.x), T(normal.y), T(normal.z)};
         block.thickness = T(thickness_);
         block.flux = flux;
         block.direction = make_vector<V>(T(direction.x), T(direction.y), T(direction.z));
-        block.first = std::uint32_t(pieces.triangles.size());
+        block.triangle = std::uint32_t(pieces.triangles.size());
         pieces.triangles.push_back(corners);
         return pass_on(block, pieces, visit);
     }
@@ -203,12 +202,9 @@ private:
     template <class Visit>
     bool pass_on(const SheetBlock<V, F>& block, SheetPieces<V, F>& pieces, const Visit& visit) const {
         const auto number = std::uint32_t(pieces.blocks.size());
-        Box<T> box = block.box;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            box.low[axis] = box.low[axis] - block.thickness, box.high[axis] = box.high[axis] + block.thickness;
         bool is_seen = false;
         for (const std::uint32_t leaf : leaves_)
-            if (pixels_.leaves()[leaf].box.overlaps(box)) {
+            if (pixels_.leaves()[leaf].box.overlaps(block.box)) {
                 visit(leaf, number);
                 is_seen = true;
             }

@@ -3,21 +3,23 @@
 #pragma once
 
 #include "nephroid/tree/box.hpp"
+#include "nephroid/vector/scalar.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 namespace nephroid::detail {
 
-/// All that is read of a vertex while light is added to it, in one line of cache (of floats).
+/// All that is read of a vertex while light is added to it.
 template <Scalar T>
-struct alignas(16 * sizeof(T)) PixelRecord {
+struct PixelRecord {
     std::array<T, 3> position;     ///< relative to the tree's origin
     std::array<T, 3> row_u, row_v; ///< dual to the footprint's sides: s = row_u · (x − position) + ½
     std::array<T, 3> normal;
-    T inverse_area;     ///< of the footprint
-    std::uint32_t slot; ///< of the tree's leaf order
+    T inverse_area; ///< of the footprint
 };
 
 /// Up to sixteen neighbouring vertices.
@@ -26,19 +28,89 @@ struct PixelGroup {
     static constexpr std::size_t most = 16;
 
     std::array<std::array<T, most>, 3> position; ///< by axis; beyond `size` it repeats the last one
-    Box<T> box;                ///< about their footprints, with a little room for what lies just above or below
-    std::array<T, 3> reach;    ///< how far a footprint goes from its vertex along each axis, the largest
-    std::uint32_t first, size; ///< of the records
-    T pixel, largest;          ///< the roots of the smallest and the largest footprint's area
+    Box<T> box;                                  ///< about their footprints
+    std::array<std::uint8_t, most> slot;         ///< of the leaf
+    std::uint32_t size;
 };
 
 /// A leaf's groups.
 template <Scalar T>
 struct PixelLeaf {
     std::uint32_t first, size;
-    Box<T> box;   ///< about its footprints
-    T pixel;      ///< the smallest of its groups'
-    T largest{0}; ///< the root of the largest footprint's area
+    Box<T> box;             ///< about its footprints; empty where they have no extent
+    std::array<T, 3> reach; ///< how far a footprint goes from its vertex along each axis, the largest
+    T pixel, largest;       ///< the roots of the smallest and the largest footprint's area
+};
+
+/// How many of n vertices come first where more than sixteen are parted in two.
+[[nodiscard]] constexpr std::size_t first_part(std::size_t n) {
+    constexpr std::size_t most = PixelGroup<float>::most;
+    return (std::min)(((n + most - 1) / most + 1) / 2 * most, n / 2 + most / 2);
+}
+
+/// Into how many groups n vertices are parted.
+[[nodiscard]] constexpr std::uint32_t groups_in(std::size_t n) {
+    return n <= PixelGroup<float>::most ? 1 : groups_in(first_part(n)) + groups_in(n - first_part(n));
+}
+
+/// Parts the vertices of a leaf across the longest side of their box until sixteen are left.
+template <Scalar T>
+class LeafParts {
+public:
+    static constexpr std::size_t most = 64; ///< vertices
+
+    /// @param position  of the leaf's first vertex, by axis
+    explicit LeafParts(const std::array<const T*, 3>& position) : position_(position) {}
+
+    /// Calls visit(slots) for each part. Its order is that of `slots`.
+    template <class Visit>
+    void visit_parts(std::span<std::uint8_t> slots, const Visit& visit) const {
+        if (slots.size() <= PixelGroup<T>::most) {
+            visit(std::span<const std::uint8_t>(slots));
+            return;
+        }
+        const std::size_t half = first_part(slots.size());
+        divide(slots, half);
+        visit_parts(slots.first(half), visit);
+        visit_parts(slots.subspan(half), visit);
+    }
+
+private:
+    /// Moves the vertices with the `half` smallest coordinates to the front.
+    void divide(std::span<std::uint8_t> slots, std::size_t half) const {
+        std::array<T, most> along{};
+        T widest(-1), lowest(0);
+        for (const T* const position : position_) {
+            T low = position[slots[0]], high = low;
+            std::array<T, most> values{};
+            for (std::size_t i = 0; i < slots.size(); ++i) {
+                values[i] = position[slots[i]];
+                low = (std::min)(low, values[i]);
+                high = (std::max)(high, values[i]);
+            }
+            if (high - low > widest) {
+                along = values;
+                widest = high - low;
+                lowest = low;
+            }
+        }
+        // By rank, as all pairs are compared without a branch. Coordinates to a part in 2²⁴ of the width, made
+        // different by where they stand.
+        std::array<std::int32_t, most> key, rank{};
+        const float scale = widest > T(0) ? 16777215.0f / float(widest) : 0.0f;
+        for (std::size_t i = 0; i < most; ++i)
+            key[i] = std::int32_t(float(along[i] - lowest) * scale) * std::int32_t(most) + std::int32_t(i);
+        for (std::size_t j = 0; j < slots.size(); ++j)
+            for (std::size_t i = 0; i < most; ++i)
+                rank[i] += std::int32_t(key[j] < key[i]);
+        std::array<std::uint8_t, most> parted;
+        std::size_t first = 0, second = half;
+        for (std::size_t i = 0; i < slots.size(); ++i)
+            parted[std::size_t(rank[i]) < half ? first++ : second++] = slots[i];
+        std::copy_n(parted.begin(), slots.size(), slots.begin());
+    }
+
+    std::array<const T*, 3> position_;
 };
 
 } // namespace nephroid::detail

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -21,41 +22,37 @@ namespace nephroid {
 
 namespace detail {
 
-/// The vertices of a receiver, laid out anew for drawing: 96 to 130 bytes each in float.
+/// The places of a receiver's vertices, laid out anew for drawing: 16 bytes a vertex in float. What else is to be known
+/// of a vertex is worked out where light falls on it.
 template <Vector3 V>
 class ReceiverPixels {
 public:
     using T = scalar_t<V>;
     using Group = PixelGroup<T>;
-    using Record = PixelRecord<T>;
 
     /// @param map  must outlive this
     template <class E>
-    ReceiverPixels(const EyePathMap<V>& map, E& executor) : map_(&map) {
+    ReceiverPixels(const EyePathMap<V>& map, E& executor) : map_(&map), view_(map.view()) {
         const auto& tree = map.tree();
         std::uint32_t groups = 0;
         leaves_.reserve(tree.leaves().size());
-        for (const TreeLeaf& leaf : tree.leaves()) {
-            const std::uint32_t size = groups_in(leaf.size);
-            leaves_.push_back({groups, size, {}, T(0)});
+        for (std::size_t node = 0; node < tree.nodes().size(); ++node) {
+            if (tree.nodes()[node].leaf == no_leaf) // leaves follow each other as their nodes do
+                continue;
+            const std::uint32_t size = groups_in(tree.leaves()[leaves_.size()].size);
+            std::array<T, 3> reach = map.node(std::uint32_t(node)).reach;
+            for (T& along : reach)
+                along = T(1.01) * along; // the places' rounding is far below a hundredth
+            leaves_.push_back({groups, size, empty_box<T>(), reach, far_away, T(0)});
             groups += size;
         }
         // Not set to zero: the memory is first touched by the threads that fill it.
         groups_ = {std::unique_ptr<Group[]>(new Group[groups]), groups};
-        records_ = {std::unique_ptr<Record[]>(new Record[tree.slots()]), tree.slots()};
         constexpr std::size_t leaves_per_task = 64;
-        for_each_index(executor, leaves_.size(), leaves_per_task, [&](std::size_t leaf) {
-            std::array<std::uint32_t, PointTree<V>::leaf_size> slots;
-            const TreeLeaf& range = tree.leaves()[leaf];
-            for (std::uint32_t i = 0; i < range.size; ++i)
-                slots[i] = range.first + i;
-            Place place{std::uint32_t(leaf), leaves_[leaf].first, range.first};
-            part(std::span(slots).first(range.size), place);
-            join(leaves_[leaf]);
-        });
+        for_each_index(executor, leaves_.size(), leaves_per_task, [&](std::size_t leaf) { fill(leaf); });
         for (const PixelLeaf<T>& leaf : leaves_) {
             largest_pixel_ = (std::max)(largest_pixel_, double(leaf.largest));
-            bounds_ = joined(bounds_, leaf.box);
+            bounds_.add(leaf.box);
         }
     }
 
@@ -65,15 +62,32 @@ public:
     [[nodiscard]] std::span<const Group> groups_of(std::uint32_t leaf) const {
         return groups().subspan(leaves_[leaf].first, leaves_[leaf].size);
     }
-    [[nodiscard]] std::span<const Record> records() const { return {records_.items.get(), records_.size}; }
 
-    /// About all footprints, relative to the tree's origin; low > high where there are none.
+    /// Of the vertex in a slot of the tree, which lies in this leaf.
+    [[nodiscard]] PixelRecord<T> record(std::uint32_t leaf, std::size_t slot) const {
+        using t = vector_traits<V>;
+        const auto& tree = view_.tree();
+        const FootprintRows<V> rows = view_.footprint(leaf, slot);
+        PixelRecord<T> record{{tree.x()[slot], tree.y()[slot], tree.z()[slot]},
+                              {t::x(rows.u), t::y(rows.u), t::z(rows.u)},
+                              {t::x(rows.v), t::y(rows.v), t::z(rows.v)},
+                              {view_.normal_x()[slot], view_.normal_y()[slot], view_.normal_z()[slot]},
+                              rows.inverse_area};
+        const auto &u = record.row_u, &v = record.row_v, &n = record.normal;
+        const T turn = (u[1] * v[2] - u[2] * v[1]) * n[0] + (u[2] * v[0] - u[0] * v[2]) * n[1] +
+                       (u[0] * v[1] - u[1] * v[0]) * n[2];
+        if (turn < T(0)) // counter-clockwise as seen from the side that is lit
+            std::swap(record.row_u, record.row_v);
+        return record;
+    }
+
+    /// About all footprints; low > high where there are none.
     [[nodiscard]] const Box<T>& bounds() const { return bounds_; }
 
     /// Calls visit(leaf) for every leaf with footprints that the box may reach, in the tree's order.
     template <class Visit>
     void visit_leaves(const Box<T>& box, Visit&& visit) const {
-        map_->visit_footprints(box, visit);
+        view_.visit_footprints(box, visit);
     }
 
     [[nodiscard]] double largest_pixel() const { return largest_pixel_; }
@@ -84,129 +98,66 @@ public:
     }
 
 private:
-    template <class Item>
-    struct Items {
-        std::unique_ptr<Item[]> items;
+    struct Groups {
+        std::unique_ptr<Group[]> items;
         std::size_t size = 0;
     };
 
-    /// Where the next group of a leaf goes.
-    struct Place {
-        std::uint32_t leaf, group, record;
-    };
-
-    /// How many of n vertices come first where more than sixteen are parted in two.
-    [[nodiscard]] static std::uint32_t first_part(std::uint32_t n) {
-        const std::uint32_t groups = (n + most - 1) / most;
-        return (std::min)((groups + 1) / 2 * most, n / 2 + most / 2);
-    }
-
-    [[nodiscard]] static std::uint32_t groups_in(std::uint32_t n) {
-        return n <= most ? 1 : groups_in(first_part(n)) + groups_in(n - first_part(n));
-    }
-
-    /// Splits a leaf's vertices across the longest side of their box until sixteen are left.
-    void part(std::span<std::uint32_t> slots, Place& place) {
-        if (slots.size() <= most) {
-            fill_group(slots, place);
-            return;
-        }
+    void fill(std::size_t number) {
+        PixelLeaf<T>& leaf = leaves_[number];
+        measure(number, leaf);
+        const TreeLeaf range = map_->tree().leaves()[number];
         const auto& tree = map_->tree();
-        const T* const coordinates[3] = {tree.x(), tree.y(), tree.z()};
-        std::size_t axis = 0;
-        T widest(-1);
-        for (std::size_t a = 0; a < 3; ++a) {
-            T low = coordinates[a][slots[0]], high = low;
-            for (const std::uint32_t slot : slots) {
-                low = (std::min)(low, coordinates[a][slot]);
-                high = (std::max)(high, coordinates[a][slot]);
-            }
-            axis = high - low > widest ? a : axis;
-            widest = (std::max)(widest, T(high - low));
-        }
-        const std::size_t half = first_part(std::uint32_t(slots.size()));
-        const auto less = [x = coordinates[axis]](auto i, auto j) { return x[i] < x[j] || (!(x[j] < x[i]) && i < j); };
-        std::nth_element(slots.begin(), slots.begin() + std::ptrdiff_t(half), slots.end(), less);
-        part(slots.first(half), place);
-        part(slots.subspan(half), place);
+        const std::array<const T*, 3> position = {tree.x() + range.first, tree.y() + range.first,
+                                                  tree.z() + range.first};
+        static_assert(PointTree<V>::leaf_size <= LeafParts<T>::most);
+        std::array<std::uint8_t, LeafParts<T>::most> slots;
+        std::iota(slots.begin(), slots.end(), std::uint8_t(0));
+        Group* group = groups_.items.get() + leaf.first;
+        LeafParts<T>(position).visit_parts(std::span(slots).first(range.size), [&](auto part) {
+            fill_group(part, position, leaf.reach, *group);
+            if (leaf.largest > T(0))
+                leaf.box.add(group->box);
+            ++group;
+        });
     }
 
-    void fill_group(std::span<const std::uint32_t> slots, Place& place) {
-        Group& group = groups_.items[place.group++];
-        group.box = {{far_away, far_away, far_away}, {-far_away, -far_away, -far_away}};
-        group.reach = {};
-        group.first = place.record;
-        group.size = std::uint32_t(slots.size());
-        group.pixel = far_away;
-        group.largest = T(0);
-        for (std::size_t i = 0; i < most; ++i) {
-            const std::uint32_t slot = slots[(std::min)(i, slots.size() - 1)];
-            const auto& tree = map_->tree();
-            const std::array<T, 3> p{tree.x()[slot], tree.y()[slot], tree.z()[slot]};
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                group.position[axis][i] = p[axis];
-            if (i < slots.size())
-                add_record(group, slot, p, map_->footprint(place.leaf, slot), records_.items[place.record++]);
-        }
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const T room = T(0.03) * (std::max)({group.reach[0], group.reach[1], group.reach[2]});
-            group.box.low[axis] = group.box.low[axis] - room, group.box.high[axis] = group.box.high[axis] + room;
-        }
-    }
-
-    void add_record(Group& group, std::uint32_t slot, const std::array<T, 3>& p, FootprintRows<V> rows,
-                    Record& record) {
-        using t = vector_traits<V>;
-        const V normal = make_vector<V>(map_->normal_x()[slot], map_->normal_y()[slot], map_->normal_z()[slot]);
-        if (dot(cross(rows.u, rows.v), normal) < T(0)) // counter-clockwise as seen from the side that is lit
-            std::swap(rows.u, rows.v);
-        const auto array = [](const V& v) { return std::array<T, 3>{t::x(v), t::y(v), t::z(v)}; };
-        record = {p, array(rows.u), array(rows.v), array(normal), rows.inverse_area, slot};
-        if (!(rows.inverse_area > T(0))) // sees nothing
+    /// The sizes of a leaf's footprints.
+    void measure(std::size_t number, PixelLeaf<T>& leaf) const {
+        if (!map_->has_footprints()) {
+            leaf.largest = map_->leaf(std::uint32_t(number)).spacing;
+            leaf.pixel = leaf.largest > T(0) ? leaf.largest : far_away;
             return;
-        // The sides from the rows, whose dual basis they are.
-        const T area = T(1) / rows.inverse_area;
-        const V across = area * cross(rows.u, rows.v);
-        const std::array<T, 3> u = array(V(area * cross(rows.v, across))), v = array(V(area * cross(across, rows.u)));
+        }
+        const TreeLeaf range = map_->tree().leaves()[number];
+        const T* const inverse_area = view_.arrays().footprint_rows[6] + range.first;
+        const auto [least, most] = std::minmax_element(inverse_area, inverse_area + range.size);
+        leaf.pixel = *most > T(0) ? T(1) / sqrt(*most) : far_away;
+        leaf.largest = *least > T(0) ? T(1) / sqrt(*least) : T(0);
+    }
+
+    static void fill_group(std::span<const std::uint8_t> slots, const std::array<const T*, 3>& position,
+                           const std::array<T, 3>& reach, Group& group) {
+        group.size = std::uint32_t(slots.size());
+        for (std::size_t i = 0; i < Group::most; ++i)
+            group.slot[i] = slots[(std::min)(i, slots.size() - 1)];
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const T reach = T(0.5) * (abs(u[axis]) + abs(v[axis]));
-            group.reach[axis] = (std::max)(group.reach[axis], reach);
-            group.box.low[axis] = (std::min)(group.box.low[axis], p[axis] - reach);
-            group.box.high[axis] = (std::max)(group.box.high[axis], p[axis] + reach);
-        }
-        group.pixel = (std::min)(group.pixel, sqrt(area));
-        group.largest = (std::max)(group.largest, sqrt(area));
-    }
-
-    void join(PixelLeaf<T>& leaf) const {
-        const Group& first = groups_.items[leaf.first];
-        leaf.box = first.box, leaf.pixel = first.pixel, leaf.largest = first.largest;
-        for (std::uint32_t i = 1; i < leaf.size; ++i) {
-            const Group& group = groups_.items[leaf.first + i];
-            leaf.box = joined(leaf.box, group.box);
-            leaf.pixel = (std::min)(leaf.pixel, group.pixel);
-            leaf.largest = (std::max)(leaf.largest, group.largest);
+            for (std::size_t i = 0; i < Group::most; ++i)
+                group.position[axis][i] = position[axis][group.slot[i]];
+            const auto& all = group.position[axis];
+            const auto [low, high] = std::minmax_element(all.begin(), all.end());
+            group.box.low[axis] = *low - reach[axis], group.box.high[axis] = *high + reach[axis];
         }
     }
 
-    [[nodiscard]] static Box<T> joined(const Box<T>& a, const Box<T>& b) {
-        Box<T> both;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            both.low[axis] = (std::min)(a.low[axis], b.low[axis]);
-            both.high[axis] = (std::max)(a.high[axis], b.high[axis]);
-        }
-        return both;
-    }
-
-    static constexpr std::uint32_t most = Group::most;
     static constexpr T far_away = std::numeric_limits<T>::infinity();
 
     const EyePathMap<V>* map_;
+    EyePathView<V> view_;
     std::vector<PixelLeaf<T>> leaves_;
-    Items<Group> groups_;
-    Items<Record> records_;
+    Groups groups_;
     double largest_pixel_ = 0;
-    Box<T> bounds_{{far_away, far_away, far_away}, {-far_away, -far_away, -far_away}};
+    Box<T> bounds_ = empty_box<T>();
 };
 
 } // namespace detail

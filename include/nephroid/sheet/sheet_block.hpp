@@ -11,6 +11,7 @@
 
 #include "nephroid/emission/flux.hpp"
 #include "nephroid/sheet/coverage.hpp"
+#include "nephroid/sheet/edge_pages.hpp"
 #include "nephroid/sheet/receiver_pixels.hpp"
 #include "nephroid/vector/not_unrolled.hpp"
 
@@ -18,24 +19,17 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace nephroid::detail {
-
-/// Eight edges side by side, from a to b relative to the block's middle; `jump` 0 where there is none.
-template <Scalar T>
-struct EdgeGroup {
-    static constexpr std::size_t lanes = 8;
-    std::array<std::array<T, lanes>, 3> a, b;
-    std::array<T, lanes> jump;
-};
 
 /// One flat piece of a sheet: edges with jumps of density, or a single triangle with too little area for a density.
 template <Vector3 V, Flux F>
 struct SheetBlock {
     using T = scalar_t<V>;
 
-    Box<T> box;                             ///< of its corners, relative to the tree's origin
+    Box<T> box;                             ///< of its corners, grown by the thickness; relative to the tree's origin
     std::array<T, 3> middle;                ///< relative to the tree's origin
     std::array<T, 3> normal;                ///< unit, on the side that the light comes from
     T thickness;                            ///< vertices nearer to its plane than this are on its surface, world units
@@ -44,7 +38,8 @@ struct SheetBlock {
     T doubtful;                             ///< a sum below this may be rounding alone
     F flux;                                 ///< of the whole patch or triangle
     V direction;                            ///< of flight, unit, in the middle
-    std::uint32_t first, size;              ///< its edge groups; a triangle: its number, and 0
+    std::span<const EdgeGroup<T>> edges;    ///< none: a triangle
+    std::uint32_t triangle;                 ///< its number
 };
 
 /// The corners of a triangle that goes by its area's share, relative to the tree's origin.
@@ -55,7 +50,7 @@ template <Vector3 V, Flux F>
 struct SheetPieces {
     using T = scalar_t<V>;
     std::vector<SheetBlock<V, F>> blocks;
-    std::vector<EdgeGroup<T>> edges;
+    EdgePages<T> edges;
     std::vector<LooseTriangle> triangles;
 
     void clear() {
@@ -66,20 +61,22 @@ struct SheetPieces {
 };
 
 /// Which vertices of a group may be lit by a block: a bit for each.
+///
+/// @param reach  of the group's leaf
 template <Vector3 V, Flux F>
-[[nodiscard]] std::uint32_t vertices_near(const SheetBlock<V, F>& block, const PixelGroup<scalar_t<V>>& group) {
+[[nodiscard]] std::uint32_t vertices_near(const SheetBlock<V, F>& block, const PixelGroup<scalar_t<V>>& group,
+                                          const std::array<scalar_t<V>, 3>& reach) {
     using T = scalar_t<V>;
     constexpr std::size_t most = PixelGroup<T>::most;
     const auto along = [&](const std::array<T, 3>& axis) {
-        return abs(axis[0]) * group.reach[0] + abs(axis[1]) * group.reach[1] + abs(axis[2]) * group.reach[2];
+        return abs(axis[0]) * reach[0] + abs(axis[1]) * reach[1] + abs(axis[2]) * reach[2];
     };
     const auto &n = block.normal, &a = block.across[0], &b = block.across[1];
-    // The places' rounding is far below a hundredth of what footprints reach.
-    const T reach_a = T(1.01) * along(a), reach_b = T(1.01) * along(b);
+    const T reach_a = along(a), reach_b = along(b);
     const T low_a = block.low[0] - reach_a, high_a = block.high[0] + reach_a;
     const T low_b = block.low[1] - reach_b, high_b = block.high[1] + reach_b;
-    const T low_x = block.box.low[0] - group.reach[0], high_x = block.box.high[0] + group.reach[0];
-    const T low_y = block.box.low[1] - group.reach[1], high_y = block.box.high[1] + group.reach[1];
+    const T low_x = block.box.low[0] - reach[0], high_x = block.box.high[0] + reach[0];
+    const T low_y = block.box.low[1] - reach[1], high_y = block.box.high[1] + reach[1];
     const T cx = block.middle[0], cy = block.middle[1], cz = block.middle[2], thickness = block.thickness;
     std::array<std::int32_t, most> is_near;
     for (std::size_t i = 0; i < most; ++i) {
@@ -99,7 +96,7 @@ template <Vector3 V, Flux F>
 
 /// Σ jump · edge_integral over a block's edges, in the footprint of one vertex.
 template <Scalar T>
-[[nodiscard]] T sum_of_edges(const EdgeGroup<T>* edges, std::size_t count, const PixelRecord<T>& pixel,
+[[nodiscard]] T sum_of_edges(std::span<const EdgeGroup<T>> edges, const PixelRecord<T>& pixel,
                              const std::array<T, 3>& middle) {
     constexpr std::size_t lanes = EdgeGroup<T>::lanes;
     const auto &u = pixel.row_u, &v = pixel.row_v;
@@ -107,13 +104,13 @@ template <Scalar T>
     const T s = u[0] * dx + u[1] * dy + u[2] * dz + T(0.5), t = v[0] * dx + v[1] * dy + v[2] * dz + T(0.5);
     const T ux = u[0], uy = u[1], uz = u[2], vx = v[0], vy = v[1], vz = v[2];
     std::array<T, lanes> sum{};
-    for (const EdgeGroup<T>* e = edges; e != edges + count; ++e) {
+    for (const EdgeGroup<T>& e : edges) {
         NEPHROID_NOT_UNROLLED
         for (std::size_t i = 0; i < lanes; ++i) {
-            const T ax = e->a[0][i], ay = e->a[1][i], az = e->a[2][i];
-            const T bx = e->b[0][i], by = e->b[1][i], bz = e->b[2][i];
+            const T ax = e.a[0][i], ay = e.a[1][i], az = e.a[2][i];
+            const T bx = e.b[0][i], by = e.b[1][i], bz = e.b[2][i];
             sum[i] +=
-                e->jump[i] * edge_integral<T>(s + (ux * ax + uy * ay + uz * az), t + (vx * ax + vy * ay + vz * az),
+                e.jump[i] * edge_integral<T>(s + (ux * ax + uy * ay + uz * az), t + (vx * ax + vy * ay + vz * az),
                                               s + (ux * bx + uy * by + uz * bz), t + (vx * bx + vy * by + vz * bz));
         }
     }
@@ -122,7 +119,7 @@ template <Scalar T>
 
 /// Whether a block's edges lie beside a vertex's footprint, all on one side of it.
 template <Scalar T>
-[[nodiscard]] bool is_beside(const EdgeGroup<T>* edges, std::size_t count, const PixelRecord<T>& pixel,
+[[nodiscard]] bool is_beside(std::span<const EdgeGroup<T>> edges, const PixelRecord<T>& pixel,
                              const std::array<T, 3>& middle) {
     T low_s(2), high_s(-1), low_t(2), high_t(-1);
     const auto take = [&](T x, T y, T z) {
@@ -133,11 +130,11 @@ template <Scalar T>
         low_s = (std::min)(low_s, s), high_s = (std::max)(high_s, s);
         low_t = (std::min)(low_t, t), high_t = (std::max)(high_t, t);
     };
-    for (const EdgeGroup<T>* e = edges; e != edges + count; ++e)
+    for (const EdgeGroup<T>& e : edges)
         for (std::size_t i = 0; i < EdgeGroup<T>::lanes; ++i)
-            if (e->jump[i] != T(0)) {
-                take(e->a[0][i], e->a[1][i], e->a[2][i]);
-                take(e->b[0][i], e->b[1][i], e->b[2][i]);
+            if (e.jump[i] != T(0)) {
+                take(e.a[0][i], e.a[1][i], e.a[2][i]);
+                take(e.b[0][i], e.b[1][i], e.b[2][i]);
             }
     return !(low_s < T(1) && high_s > T(0) && low_t < T(1) && high_t > T(0));
 }
@@ -151,10 +148,10 @@ template <Vector3 V, Flux F>
         block.normal[0] * pixel.normal[0] + block.normal[1] * pixel.normal[1] + block.normal[2] * pixel.normal[2];
     if (!(facing > T(0)))
         return T(0);
-    if (block.size == 0) {
+    if (block.edges.empty()) {
         std::array<FootprintPlace<double>, 3> corners;
         for (std::size_t i = 0; i < 3; ++i) {
-            const Double3& c = pieces.triangles[block.first][i];
+            const Double3& c = pieces.triangles[block.triangle][i];
             const double x = c.x - double(pixel.position[0]), y = c.y - double(pixel.position[1]),
                          z = c.z - double(pixel.position[2]);
             const auto row = [&](const std::array<T, 3>& r) {
@@ -164,9 +161,8 @@ template <Vector3 V, Flux F>
         }
         return T(covered_share(corners) * double(pixel.inverse_area));
     }
-    const EdgeGroup<T>* const edges = pieces.edges.data() + block.first;
-    const T sum = sum_of_edges(edges, block.size, pixel, block.middle);
-    if (sum < block.doubtful && (!(sum > T(0)) || is_beside(edges, block.size, pixel, block.middle)))
+    const T sum = sum_of_edges(block.edges, pixel, block.middle);
+    if (sum < block.doubtful && (!(sum > T(0)) || is_beside(block.edges, pixel, block.middle)))
         return T(0);
     return sum / facing;
 }
@@ -178,14 +174,16 @@ template <Vector3 V, Flux F, class Add>
 void add_to_leaf(const SheetPieces<V, F>& pieces, const SheetBlock<V, F>& block, const ReceiverPixels<V>& pixels,
                  std::uint32_t leaf, const Add& add) {
     using T = scalar_t<V>;
+    const std::uint32_t first = pixels.map().tree().leaves()[leaf].first;
     for (const PixelGroup<T>& group : pixels.groups_of(leaf)) {
         if (!group.box.overlaps(block.box))
             continue;
-        for (std::uint32_t bits = vertices_near(block, group); bits != 0; bits &= bits - 1) {
-            const PixelRecord<T>& pixel = pixels.records()[group.first + std::uint32_t(std::countr_zero(bits))];
-            const T irradiance = irradiance_at(pieces, block, pixel);
+        for (std::uint32_t bits = vertices_near(block, group, pixels.leaves()[leaf].reach); bits != 0;
+             bits &= bits - 1) {
+            const std::uint32_t slot = first + group.slot[std::size_t(std::countr_zero(bits))];
+            const T irradiance = irradiance_at(pieces, block, pixels.record(leaf, slot));
             if (irradiance > T(0))
-                add(pixel.slot, irradiance);
+                add(slot, irradiance);
         }
     }
 }
