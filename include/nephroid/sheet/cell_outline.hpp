@@ -46,7 +46,9 @@ class OutlineFinder {
 public:
     using Node = NodeEnd<V, F>;
 
-    OutlineFinder(Nodes& nodes, const Pixel& pixel) : nodes_(nodes), pixel_(pixel) {}
+    /// @param halvings  of a cell's side at most, to find where on it a sheet ends
+    OutlineFinder(Nodes& nodes, const Pixel& pixel, unsigned halvings)
+        : nodes_(nodes), pixel_(pixel), halvings_(halvings) {}
 
     /// Calls visit(outline) for each piece of the cell that carries this signature.
     ///
@@ -79,8 +81,8 @@ private:
         return {k % 4 == 1 || k % 4 == 2 ? 1.0 : 0.0, k % 4 >= 2 ? 1.0 : 0.0};
     }
 
-    /// Halves the side from a corner that is on the sheet towards one that is not, until the rest is below a fraction
-    /// of a pixel, three times at least and six at most. The sheet's end is taken in the middle of what is left.
+    /// Halves the side from a corner that is on the sheet towards one that is not, until a step is below a fraction
+    /// of a pixel, or it has been halved often enough. The sheet's end is taken in the middle of what is left.
     void add_border(CellOutline<V, F>& outline, const LatticePlace& place, std::int64_t step, std::size_t from,
                     std::size_t to, const Node& corner) {
         const auto a = unit(from), b = unit(to);
@@ -88,7 +90,7 @@ private:
         const LatticePlace way{std::int64_t(b[0] - a[0]), std::int64_t(b[1] - a[1])};
         Node inside = corner;
         std::int64_t on = 0, off = step;
-        for (unsigned halved = 0; halved < Lattice::bisections && off - on > 1; ++halved) {
+        for (unsigned halved = 0; halved < halvings_ && off - on > 1; ++halved) {
             const std::int64_t middle = (on + off) / 2;
             const Node* const found = end_of<V, F>(nodes_.at(begin + middle * way), corner.signature);
             if (!found || !are_joined(inside, *found, pixel_)) {
@@ -98,7 +100,7 @@ private:
             const double moved2 = double(length2(V(found->position - inside.position)));
             inside = *found;
             on = middle;
-            if (halved >= 3 && moved2 < square(0.25 * double(pixel_())))
+            if (moved2 < square(0.25 * double(pixel_())))
                 break;
         }
         const double share = 0.5 * double(on + off) / double(step);
@@ -107,6 +109,7 @@ private:
 
     Nodes& nodes_;
     const Pixel& pixel_;
+    unsigned halvings_;
 };
 
 } // namespace nephroid::detail

@@ -5,13 +5,14 @@
 #include "nephroid/sheet/cell_outline.hpp"
 #include "nephroid/sheet/cell_tangents.hpp"
 #include "nephroid/sheet/patch_blocks.hpp"
-#include "nephroid/sheet/refine.hpp"
+#include "nephroid/sheet/refinement.hpp"
 #include "nephroid/sheet/sheet_account.hpp"
 #include "nephroid/sheet/tile_pieces.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace nephroid::detail {
@@ -25,9 +26,10 @@ public:
     using T = scalar_t<V>;
     using Node = NodeEnd<V, F>;
 
-    CellPieces(const Lattice& lattice, const ReceiverPixels<V>& pixels, const Tessellation& rule, Nodes& nodes,
-               TilePieces<V, F>& tile, SheetAccount& account)
-        : lattice_(lattice), pixels_(pixels), nodes_(nodes), tile_(tile), account_(account), blocks_(pixels, rule) {}
+    CellPieces(const Lattice& lattice, const ReceiverPixels<V>& pixels, const Tessellation& rule,
+               const Brightness& brightness, Nodes& nodes, TilePieces<V, F>& tile, SheetAccount& account)
+        : lattice_(lattice), pixels_(pixels), brightness_(brightness), nodes_(nodes), tile_(tile), account_(account),
+          blocks_(pixels, rule) {}
 
     void add(const Cell& cell) {
         ++account_.cells;
@@ -84,9 +86,17 @@ private:
         if (is_whole)
             add_patch(cell, ends, pixel);
         else
-            OutlineFinder<V, F, Nodes, decltype(pixel)>(nodes_, pixel)
+            OutlineFinder<V, F, Nodes, decltype(pixel)>(nodes_, pixel, halvings_of(cell))
                 .visit_pieces(cell.place, cell.step, ends, is_joined,
                               [&](const CellOutline<V, F>& outline) { outlines_.push_back(outline); });
+    }
+
+    /// As far as a regular cell's sides are halved, but no less than twice.
+    [[nodiscard]] unsigned halvings_of(const Cell& cell) const {
+        unsigned halvings = Lattice::bisections;
+        for (std::int64_t step = cell.step; step < lattice_.step() && halvings > 2; step *= 2)
+            --halvings;
+        return halvings;
     }
 
     template <class Pixel>
@@ -105,8 +115,17 @@ private:
                 patch.direction[i][j] = double3(ends[k]->direction);
             }
         patch.flux = static_cast<F>(mean_density(cell, ends) * T(area_of(cell)));
-        const bool is_seen = blocks_.add(patch, 1, tile_.pieces, visitor());
+        const bool is_seen =
+            blocks_.add(patch, square(brightness_.allowance(irradiance(patch))), tile_.pieces, visitor());
         account_.book(patch.flux, is_seen, false);
+    }
+
+    /// The mean on a patch, from its corners.
+    [[nodiscard]] static double irradiance(const LitPatch<V, F>& patch) {
+        const auto& c = patch.corners;
+        const double area =
+            0.5 * length(plain_cross(c[1][1].position - c[0][0].position, c[0][1].position - c[1][0].position));
+        return area > 0 ? flux_traits<F>::power(patch.flux) / area : std::numeric_limits<double>::infinity();
     }
 
     /// The mean over the cell of the quadratic through the nine nodes of its block of 2 × 2 cells [Newton and Cotes:
@@ -185,6 +204,7 @@ private:
 
     const Lattice& lattice_;
     const ReceiverPixels<V>& pixels_;
+    const Brightness& brightness_;
     Nodes& nodes_;
     TilePieces<V, F>& tile_;
     SheetAccount& account_;

@@ -2,17 +2,21 @@
 /// @file  The sheets of one chart: traced by sectors, cut up by tiles, added to the sums by leaves.
 #pragma once
 
+#include "nephroid/emission/chart/chart_light.hpp"
 #include "nephroid/receiver/sums.hpp"
 #include "nephroid/sheet/cell_pieces.hpp"
 #include "nephroid/sheet/leaf_bins.hpp"
 #include "nephroid/sheet/node_tracer.hpp"
+#include "nephroid/sheet/refine.hpp"
 #include "nephroid/sheet/sheet_grid.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace nephroid {
@@ -33,11 +37,6 @@ struct SheetStatistics {
                            ///< and was not met, or was taken for more than it is
 };
 
-/// A part of a chart.
-struct ChartRectangle {
-    double u_begin, u_end, v_begin, v_end;
-};
-
 /// Nobody takes over what is broken: it is drawn as well as may be, and counted.
 struct DrawBroken {};
 
@@ -51,19 +50,23 @@ public:
     using Node = NodeEnd<V, F>;
 
     ChartSheets(const S& scene, const EmissionChart<V, F>& chart, Sums<V, F, R>& sums, const ReceiverPixels<V>& pixels,
-                const SheetOptions& options, const WalkLimits& limits, double weight, E& executor, TakeOver& take_over)
+                const SheetOptions& options, const WalkLimits& limits, const Brightness& brightness, double weight,
+                E& executor, TakeOver& take_over)
         : scene_(scene), chart_(chart), sums_(sums), pixels_(pixels), options_(options), limits_(limits),
-          weight_(weight), executor_(executor), take_over_(take_over), bins_(sums.map().tree().leaves().size()) {}
+          brightness_(brightness), weight_(weight), executor_(executor), take_over_(take_over),
+          bins_(sums.map().tree().leaves().size()) {}
 
-    void draw(const Lattice& lattice, SheetStatistics& statistics) {
+    /// @param refining  how many nodes may be added to the lattice's
+    void draw(const Lattice& lattice, double refining, SheetStatistics& statistics) {
         for (const CellRange& sector : sectors_of(lattice)) {
             announce(executor_, Phase::trace);
             trace(lattice, sector, statistics);
             const std::vector<CellRange> tiles = tiles_of(sector);
+            share_out(lattice, tiles, refining * double(sector.cells()) / double(lattice.cells_u * lattice.cells_v));
             for (std::size_t first = 0; first < tiles.size(); first += tiles_per_batch) {
                 const auto batch = std::span(tiles).subspan(first, (std::min)(tiles_per_batch, tiles.size() - first));
                 announce(executor_, Phase::fit);
-                cut_up(lattice, batch, statistics);
+                cut_up(lattice, batch, std::span(most_nodes_).subspan(first, batch.size()), statistics);
                 announce(executor_, Phase::splat);
                 add_to_sums(batch.size());
             }
@@ -72,6 +75,7 @@ public:
 
 private:
     static constexpr std::size_t tiles_per_batch = 32;
+    static constexpr bool is_taken_over = !std::is_same_v<TakeOver, DrawBroken>;
 
     void trace(const Lattice& lattice, const CellRange& sector, SheetStatistics& statistics) {
         traced_.assign(1024, {});
@@ -84,14 +88,40 @@ private:
             },
             executor_);
         statistics.sheets.nodes += grid_.size();
+        is_by_chance_ = false;
         for (const TracedNodes& traced : traced_) {
+            is_by_chance_ |= traced.by_chance > 0;
             statistics.light += traced.account;
             statistics.unresolved += traced.landed;
             statistics.sheets.by_chance += traced.by_chance;
         }
     }
 
-    void cut_up(const Lattice& lattice, std::span<const CellRange> tiles, SheetStatistics& statistics) {
+    /// Says of each tile how many nodes may be added to it: as its blocks need.
+    void share_out(const Lattice& lattice, std::span<const CellRange> tiles, double nodes) {
+        most_nodes_.assign(tiles.size(), 0);
+        if (lattice.levels == 0)
+            return;
+        const BlockNeeds<V, F> needs(pixels_, options_.refinement, lattice.area());
+        executor_(tiles.size(), [&](std::size_t i) {
+            const std::int64_t step = lattice.step();
+            const auto known = [&](const LatticePlace& p) { return grid_.has(p) ? grid_[p] : NodeEnds<V, F>{}; };
+            for (std::int64_t v = tiles[i].begin_v; v < tiles[i].end_v; v += 2)
+                for (std::int64_t u = tiles[i].begin_u; u < tiles[i].end_u; u += 2) {
+                    const LatticePlace place{u * step, v * step};
+                    most_nodes_[i] +=
+                        needs(block_at<V, F>(place, step, known), place, step, known).photons(lattice.levels);
+                }
+            most_nodes_[i] += 12; // for what lies between the regular nodes
+        });
+        const double wanted = std::accumulate(most_nodes_.begin(), most_nodes_.end(), 0.0);
+        for (double& most : most_nodes_)
+            most *= nodes / wanted;
+    }
+
+    void cut_up(const Lattice& lattice, std::span<const CellRange> tiles, std::span<const double> most_nodes,
+                SheetStatistics& statistics) {
+        const BlockNeeds<V, F> needs(pixels_, options_.refinement, lattice.area());
         tiles_.resize((std::max)(tiles_.size(), tiles.size()));
         is_broken_.assign(tiles.size(), 0);
         std::vector<SheetStatistics> accounts(tiles.size());
@@ -103,20 +133,18 @@ private:
             };
             NodeCache<V, F, decltype(trace)> nodes(grid_, lattice, trace);
             tiles_[i].clear();
-            CellPieces<V, F, decltype(nodes)> pieces(lattice, pixels_, options_.tessellation, nodes, tiles_[i],
-                                                     accounts[i].sheets);
+            CellPieces<V, F, decltype(nodes)> pieces(lattice, pixels_, options_.tessellation, brightness_, nodes,
+                                                     tiles_[i], accounts[i].sheets);
             const std::int64_t step = lattice.step();
-            const double regular = double((tiles[i].columns() + 1) * (tiles[i].rows() + 1));
-            const double most_nodes =
-                (std::max)(options_.refinement.most_nodes * regular, 200'000 / double(tile_count(lattice)));
             BlockRefiner<V, F, decltype(nodes)> refiner(
-                pixels_, options_.refinement, nodes,
+                needs, nodes,
                 {{tiles[i].begin_u * step, tiles[i].begin_v * step}, {tiles[i].end_u * step, tiles[i].end_v * step}},
-                std::size_t(most_nodes));
-            std::vector<Cell> cells;
+                std::size_t(most_nodes[i]));
+            std::vector<Cell> blocks, cells;
             for (std::int64_t v = tiles[i].begin_v; v < tiles[i].end_v; v += 2)
                 for (std::int64_t u = tiles[i].begin_u; u < tiles[i].end_u; u += 2)
-                    refiner.refine({u * step, v * step}, step, cells);
+                    blocks.push_back({{u * step, v * step}, step});
+            refiner.refine(std::move(blocks), cells);
             refiner.refine_empty(cells);
             for (const Cell& cell : cells)
                 pieces.add(cell);
@@ -124,14 +152,14 @@ private:
             accounts[i].sheets.nodes += nodes.added();
             accounts[i].sheets.by_chance += traced.by_chance;
             accounts[i].light = traced.account;
-            is_broken_[i] = is_broken(accounts[i].sheets);
+            is_broken_[i] = is_broken(accounts[i].sheets) || (is_taken_over && is_by_chance_);
             if (is_broken_[i])
                 give_away(tiles_[i], accounts[i].sheets);
         });
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             statistics.light += accounts[i].light;
             statistics.sheets += accounts[i].sheets;
-            if constexpr (!std::is_same_v<TakeOver, DrawBroken>)
+            if constexpr (is_taken_over)
                 if (is_broken_[i]) {
                     const double cells_u = double(lattice.cells_u), cells_v = double(lattice.cells_v);
                     take_over_(chart_,
@@ -148,9 +176,9 @@ private:
     /// Books a broken tile's light, which is drawn if nobody takes it over.
     static void give_away(TilePieces<V, F>& tile, SheetAccount& account) {
         ++account.broken_tiles;
-        Tally& to = std::is_same_v<TakeOver, DrawBroken> ? account.broken : account.handed_over;
+        Tally& to = is_taken_over ? account.handed_over : account.broken;
         to.add(account.seen.flux + account.unseen.flux);
-        if constexpr (!std::is_same_v<TakeOver, DrawBroken>) {
+        if constexpr (is_taken_over) {
             tile.clear();
             account.seen = account.unseen = account.cut = {};
         }
@@ -185,13 +213,16 @@ private:
     const ReceiverPixels<V>& pixels_;
     const SheetOptions& options_;
     const WalkLimits& limits_;
+    const Brightness& brightness_;
     double weight_;
     E& executor_;
     TakeOver& take_over_;
     NodeGrid<V, F> grid_;
     std::vector<TracedNodes> traced_;
+    std::vector<double> most_nodes_; ///< added to a tile, by tile of a sector
     std::vector<TilePieces<V, F>> tiles_;
     std::vector<char> is_broken_;
+    bool is_by_chance_ = false; ///< the sector's paths are no function of where they begin
     LeafBins bins_;
 };
 

@@ -5,7 +5,9 @@
 #include "nephroid/emission/chart/charts_of.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/sheet/chart_sheets.hpp"
+#include "nephroid/sheet/pilot_grid.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -19,8 +21,10 @@ namespace nephroid {
 /// @param scene      as for `caustics`; `SheetAccount::by_chance` counts where it asked for a random number
 /// @param light      one light or a set
 /// @param sums       what is added to
-/// @param pass       `count` photons are traced at least, as the corners of cells; where sheets end or bend, more. Of a
-///                   part of a picture (`total` larger than `count`) this is a whole picture, weighted by its part
+/// @param pass       about `count` photons are traced in all: a sixteenth as a pilot, the others as the corners of cells,
+///                   regular ones first, then of those that are split. Where sheets end within cells a few more look for
+///                   where. Of a part of a picture (`total` larger than `count`) this is a whole picture, weighted by
+///                   its part
 /// @param options    how finely
 /// @param executor   the sums do not depend on it, bit for bit
 /// @param take_over  take_over(chart, rectangle): called for each part of a chart whose sheets are too broken to be
@@ -39,11 +43,24 @@ SheetStatistics light_sheets(const S& scene, const L& light, Sums<V, F, R>& sums
     const LampCharts<V, F> lamps = charts_of(light, options.lamp_points, std::size_t(number) * options.lamp_points);
     const EmissionCharts<V, F>& charts = lamps.charts;
     statistics.without_charts = lamps.without;
-    const std::vector<detail::Lattice> lattices = detail::lattices_of(charts, pass, options.refinement.levels);
+    const Refinement& refinement = options.refinement;
+    const detail::PilotResult pilot =
+        detail::PilotGrid<S, V, F>(scene, pixels, refinement, pass.limits)(charts, pass.count, executor);
+    statistics.sheets.nodes += pilot.nodes;
+    statistics.sheets.by_chance += pilot.by_chance;
+    const double nodes = (std::max)(double(pass.count) - double(pilot.nodes), 0.0);
+    const std::vector<detail::Lattice> lattices =
+        detail::lattices_of(charts, pass, pilot.regular_share * nodes, refinement.levels);
+    double cells = 0;
+    for (const detail::Lattice& lattice : lattices)
+        cells += double(lattice.cells_u * lattice.cells_v);
     for (std::size_t i = 0; i < charts.size(); ++i)
         detail::ChartSheets<S, V, F, R, std::remove_reference_t<E>, TakeOver>(
-            scene, charts[i], sums, pixels, options, pass.limits, double(pass.count) / total, executor, take_over)
-            .draw(lattices[i], statistics);
+            scene, charts[i], sums, pixels, options, pass.limits, pilot.brightness, double(pass.count) / total,
+            executor, take_over)
+            .draw(lattices[i],
+                  (1 - pilot.regular_share) * nodes * double(lattices[i].cells_u * lattices[i].cells_v) / cells,
+                  statistics);
     const SheetAccount& sheets = statistics.sheets;
     statistics.light.fates[std::size_t(Fate::splatted)] += sheets.seen;
     statistics.light.fates[std::size_t(Fate::splatted)] += sheets.handed_over;

@@ -16,6 +16,17 @@ namespace nephroid::detail {
 template <Vector3 V, Flux F>
 using NodeBlock = std::array<std::array<NodeEnds<V, F>, 3>, 3>;
 
+/// The nodes of a block.
+/// @param at  at(place) -> NodeEnds
+template <Vector3 V, Flux F, class At>
+[[nodiscard]] NodeBlock<V, F> block_at(const LatticePlace& place, std::int64_t step, const At& at) {
+    NodeBlock<V, F> block;
+    for (std::int64_t j = 0; j < 3; ++j)
+        for (std::int64_t i = 0; i < 3; ++i)
+            block[std::size_t(j)][std::size_t(i)] = at(LatticePlace{place.i + i * step, place.j + j * step});
+    return block;
+}
+
 /// Whether no node met anything.
 template <Vector3 V, Flux F>
 [[nodiscard]] bool is_empty(const NodeBlock<V, F>& block) {

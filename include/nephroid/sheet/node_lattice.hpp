@@ -47,6 +47,7 @@ struct CellRange {
 
     [[nodiscard]] std::int64_t columns() const { return end_u - begin_u; }
     [[nodiscard]] std::int64_t rows() const { return end_v - begin_v; }
+    [[nodiscard]] std::int64_t cells() const { return columns() * rows(); }
 };
 
 /// The area of the chart around a regular node that it stands for: a cell's, less at the chart's borders; 0 for a node

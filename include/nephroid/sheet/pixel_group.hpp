@@ -40,6 +40,7 @@ struct PixelLeaf {
     Box<T> box;             ///< about its footprints; empty where they have no extent
     std::array<T, 3> reach; ///< how far a footprint goes from its vertex along each axis, the largest
     T pixel, largest;       ///< the roots of the smallest and the largest footprint's area
+    T area;                 ///< of all its footprints
 };
 
 /// How many of n vertices come first where more than sixteen are parted in two.

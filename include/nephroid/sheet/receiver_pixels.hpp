@@ -43,7 +43,7 @@ public:
             std::array<T, 3> reach = map.node(std::uint32_t(node)).reach;
             for (T& along : reach)
                 along = T(1.01) * along; // the places' rounding is far below a hundredth
-            leaves_.push_back({groups, size, empty_box<T>(), reach, far_away, T(0)});
+            leaves_.push_back({groups, size, empty_box<T>(), reach, far_away, T(0), T(0)});
             groups += size;
         }
         // Not set to zero: the memory is first touched by the threads that fill it.
@@ -52,6 +52,7 @@ public:
         for_each_index(executor, leaves_.size(), leaves_per_task, [&](std::size_t leaf) { fill(leaf); });
         for (const PixelLeaf<T>& leaf : leaves_) {
             largest_pixel_ = (std::max)(largest_pixel_, double(leaf.largest));
+            area_ += double(leaf.area);
             bounds_.add(leaf.box);
         }
     }
@@ -90,6 +91,9 @@ public:
         view_.visit_footprints(box, visit);
     }
 
+    /// Of all footprints, world units squared.
+    [[nodiscard]] double area() const { return area_; }
+
     [[nodiscard]] double largest_pixel() const { return largest_pixel_; }
 
     /// The side of a pixel around a place relative to the tree's origin, world units; the receiver must not be empty.
@@ -124,16 +128,19 @@ private:
 
     /// The sizes of a leaf's footprints.
     void measure(std::size_t number, PixelLeaf<T>& leaf) const {
+        const TreeLeaf range = map_->tree().leaves()[number];
         if (!map_->has_footprints()) {
             leaf.largest = map_->leaf(std::uint32_t(number)).spacing;
             leaf.pixel = leaf.largest > T(0) ? leaf.largest : far_away;
+            leaf.area = square(leaf.largest) * T(range.size);
             return;
         }
-        const TreeLeaf range = map_->tree().leaves()[number];
         const T* const inverse_area = view_.arrays().footprint_rows[6] + range.first;
         const auto [least, most] = std::minmax_element(inverse_area, inverse_area + range.size);
         leaf.pixel = *most > T(0) ? T(1) / sqrt(*most) : far_away;
         leaf.largest = *least > T(0) ? T(1) / sqrt(*least) : T(0);
+        for (std::uint32_t i = 0; i < range.size; ++i)
+            leaf.area = leaf.area + (inverse_area[i] > T(0) ? T(1) / inverse_area[i] : T(0));
     }
 
     static void fill_group(std::span<const std::uint8_t> slots, const std::array<const T*, 3>& position,
@@ -156,7 +163,7 @@ private:
     EyePathView<V> view_;
     std::vector<PixelLeaf<T>> leaves_;
     Groups groups_;
-    double largest_pixel_ = 0;
+    double largest_pixel_ = 0, area_ = 0;
     Box<T> bounds_ = empty_box<T>();
 };
 

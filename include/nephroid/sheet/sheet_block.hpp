@@ -111,7 +111,7 @@ template <Scalar T>
             const T bx = e.b[0][i], by = e.b[1][i], bz = e.b[2][i];
             sum[i] +=
                 e.jump[i] * edge_integral<T>(s + (ux * ax + uy * ay + uz * az), t + (vx * ax + vy * ay + vz * az),
-                                              s + (ux * bx + uy * by + uz * bz), t + (vx * bx + vy * by + vz * bz));
+                                             s + (ux * bx + uy * by + uz * bz), t + (vx * bx + vy * by + vz * bz));
         }
     }
     return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7]));

@@ -14,11 +14,25 @@
 
 namespace nephroid::detail {
 
-/// Shares the pass's photons among charts by power; the cells of each are about square, and even in number. Passes that
-/// follow each other (`first` a multiple of `count`) have cells up to a tenth wider or higher, so that their nodes lie
-/// elsewhere and what they miss averages out.
+/// The cells of a chart: about square, even in number, of this many nodes at most.
+///
+/// @param stretch  cells are wider than they would be by this factor, and less high
 template <Vector3 V, Flux F>
-[[nodiscard]] std::vector<Lattice> lattices_of(const EmissionCharts<V, F>& charts, const PhotonPass& pass,
+[[nodiscard]] Lattice lattice_of(const EmissionChart<V, F>& chart, double nodes, double stretch, unsigned levels) {
+    const auto even = [](double cells) {
+        return (std::max)(std::int64_t(2), std::int64_t(std::floor(0.5 * cells + 1e-9)) * 2);
+    };
+    const double side = std::sqrt((std::max)(nodes, 1.0)), shape = stretch * std::sqrt(chart.width / chart.height);
+    const std::int64_t columns = even(side * shape - 1);
+    return {columns, even(nodes / double(columns + 1) - 1), levels};
+}
+
+/// Shares photons among charts by power. Passes that follow each other (`first` a multiple of `count`) have cells up to
+/// a tenth wider or higher, so that their nodes lie elsewhere and what they miss averages out.
+///
+/// @param nodes  of all charts
+template <Vector3 V, Flux F>
+[[nodiscard]] std::vector<Lattice> lattices_of(const EmissionCharts<V, F>& charts, const PhotonPass& pass, double nodes,
                                                unsigned levels) {
     double power = 0;
     for (const auto& chart : charts)
@@ -26,17 +40,8 @@ template <Vector3 V, Flux F>
     const double turn = 0.5 + 0.6180339887498949 * double(pass.first / pass.count);
     const double stretch = 1 + 0.2 * (turn - std::floor(turn) - 0.5); // 1 for the first pass
     std::vector<Lattice> lattices;
-    for (const auto& chart : charts) {
-        const double nodes = power > 0 ? double(pass.count) * chart.power / power : 0;
-        const double shape = stretch * std::sqrt(chart.width / chart.height);
-        const auto even = [](double cells) {
-            return (std::max)(std::int64_t(2), std::int64_t(std::floor(0.5 * cells + 1e-9)) * 2);
-        };
-        // (cells_u + 1) (cells_v + 1) nodes at most.
-        const double side = std::sqrt((std::max)(nodes, 1.0));
-        const std::int64_t columns = even(side * shape - 1);
-        lattices.push_back({columns, even(nodes / double(columns + 1) - 1), levels});
-    }
+    for (const auto& chart : charts)
+        lattices.push_back(lattice_of(chart, power > 0 ? nodes * chart.power / power : 0, stretch, levels));
     return lattices;
 }
 

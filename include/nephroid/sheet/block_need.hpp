@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+/// @file  Whether the patches between nine photons say well enough where light lands.
+#pragma once
+
+#include "nephroid/sheet/node_block.hpp"
+#include "nephroid/sheet/receiver_pixels.hpp"
+#include "nephroid/sheet/refinement.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace nephroid::detail {
+
+/// Looks at blocks of 2 × 2 cells.
+template <Vector3 V, Flux F>
+class BlockNeeds {
+public:
+    using T = scalar_t<V>;
+    using Node = NodeEnd<V, F>;
+    using Block = NodeBlock<V, F>;
+
+    /// @param area  of a square of one step, on the chart
+    BlockNeeds(const ReceiverPixels<V>& pixels, const Refinement& rule, double area)
+        : pixels_(pixels), rule_(rule), area_(area) {}
+
+    /// @param place, step  of the block's first corner, and of its cells' sides
+    /// @param known        known(place) -> NodeEnds: nodes that have been traced
+    template <class Known>
+    [[nodiscard]] BlockNeed operator()(const Block& block, const LatticePlace& place, std::int64_t step,
+                                       const Known& known) const {
+        const Extent extent(block);
+        if (!reaches_vertices(extent))
+            return {};
+        const double pixel = pixels_.pixel_at(extent.middle());
+        for (const auto& row : block)
+            for (const NodeEnds<V, F>& ends : row)
+                for (const Node& end : ends)
+                    if (!is_whole<V, F>(block, end.signature, pixel))
+                        return need_of_broken(block, extent.size(), pixel);
+        BlockNeed need;
+        for (const Node& end : block[0][0]) {
+            const Miss miss = largest_miss<V, F>(block, place, step, known, end.signature, pixel);
+            const double allowed =
+                (std::min)(rule_.tolerance * pixel, (std::max)(rule_.relative * miss.size, 0.02 * pixel));
+            // The miss of the four cells' patches is an eighth of the block's.
+            need.ratio = (std::max)(need.ratio, float(miss.furthest / (8 * allowed)));
+        }
+        return need;
+    }
+
+    /// What reaches vertices of a block's flux, about: the mean density of those of its nodes that meet something.
+    [[nodiscard]] double seen_flux(const Block& block, std::int64_t step) const {
+        return reaches_vertices(Extent(block)) ? density(block) * 4 * area_ * double(step) * double(step) : 0;
+    }
+
+private:
+    /// The box of a block's ends.
+    struct Extent {
+        Box<double> box = empty_box<double>();
+
+        explicit Extent(const Block& block) {
+            for (const auto& row : block)
+                for (const NodeEnds<V, F>& ends : row)
+                    for (const Node& end : ends)
+                        include(box, double3(end.position));
+        }
+
+        [[nodiscard]] double size() const {
+            return (std::max)({box.high[0] - box.low[0], box.high[1] - box.low[1], box.high[2] - box.low[2]});
+        }
+        [[nodiscard]] Double3 middle() const {
+            return {0.5 * (box.low[0] + box.high[0]), 0.5 * (box.low[1] + box.high[1]),
+                    0.5 * (box.low[2] + box.high[2])};
+        }
+    };
+
+    /// Whether the box, grown by half, does.
+    [[nodiscard]] bool reaches_vertices(const Extent& extent) const {
+        Box<double> box = extent.box;
+        if (!(box.low[0] <= box.high[0]))
+            return false;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double room = 0.5 * (box.high[axis] - box.low[axis]) + 0.02 * pixels_.largest_pixel();
+            box.low[axis] -= room, box.high[axis] += room;
+        }
+        bool met = false;
+        pixels_.visit_leaves(narrowed_box<T>(box), [&](std::uint32_t) { met = true; });
+        return met;
+    }
+
+    /// What is smaller than a quarter of a pixel is right to a pixel, unless it is all but missed.
+    [[nodiscard]] static BlockNeed need_of_broken(const Block& block, double size, double pixel) {
+        if (count_lit<V, F>(block) < 5)
+            return {(std::max)(float(4 * size / pixel), 2.0f), true};
+        return {float(4 * size / pixel), true};
+    }
+
+    /// The mean flux per area of the chart.
+    [[nodiscard]] static double density(const Block& block) {
+        double sum = 0;
+        for (const auto& row : block)
+            for (const NodeEnds<V, F>& ends : row)
+                for (const Node& end : ends)
+                    sum += flux_traits<F>::power(end.density) / 9;
+        return sum;
+    }
+
+    const ReceiverPixels<V>& pixels_;
+    const Refinement& rule_;
+    double area_;
+};
+
+} // namespace nephroid::detail

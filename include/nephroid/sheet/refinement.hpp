@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+/// @file  When cells of a chart are split, and how carefully dim light is drawn.
+#pragma once
+
+#include "nephroid/sheet/node_lattice.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+namespace nephroid {
+
+/// When a block of cells is split. Light that no vertex sees is not.
+struct Refinement {
+    unsigned levels = 6;     ///< times that a cell may be split into four, 0 to 10; 0: a regular grid
+    double tolerance = 0.06; ///< by how much a patch may miss a photon between its corners, in pixels; > 0
+    double relative = 0.01;  ///< the same, of the patch's size: density is right where place is; > 0
+};
+
+namespace detail {
+
+/// A square of a chart, to be drawn; or by the step of its cells a block of 2 × 2.
+struct Cell {
+    LatticePlace place; ///< of its first corner
+    std::int64_t step;  ///< of its sides
+};
+
+/// A rectangle of a chart, borders included, in steps of the lattice.
+struct LatticeRange {
+    LatticePlace low, high;
+
+    [[nodiscard]] bool contains(const LatticePlace& p) const {
+        return p.i >= low.i && p.j >= low.j && p.i <= high.i && p.j <= high.j;
+    }
+};
+
+/// How much more of an error dim light may have.
+struct Brightness {
+    double mean = 0; ///< irradiance of the whole picture, about; 0: not known
+
+    /// How many times larger the errors of a patch may be: the root of by how much its irradiance is below a tenth of
+    /// the mean, 1 to 8.
+    [[nodiscard]] double allowance(double irradiance) const {
+        if (!(mean > 10 * irradiance))
+            return 1;
+        return (std::min)(std::sqrt(mean / (10 * irradiance)), 8.0); // of 0: 8
+    }
+};
+
+/// How much a block needs to be split.
+struct BlockNeed {
+    float ratio = 0;        ///< of its error to what is allowed; above 1 it should be
+    bool is_broken = false; ///< a sheet ends in it
+
+    [[nodiscard]] bool is_split() const { return ratio > 1; }
+
+    /// How many photons that takes, about: the miss of a smooth sheet's patches falls to an eighth by each level, and
+    /// along a line there are twice as many blocks.
+    [[nodiscard]] double photons(unsigned levels) const {
+        if (!is_split())
+            return 0;
+        const double wanted = std::ceil(std::log2(double(ratio)) / (is_broken ? 1 : 3));
+        const double level = (std::min)(wanted, double(levels));
+        return is_broken ? 12 * (std::exp2(level) - 1) : 4 * (std::exp2(2 * level) - 1);
+    }
+};
+
+} // namespace detail
+} // namespace nephroid

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+/// @file  Light sheets where light lies on sheets, splats where it does not: one call for both.
+#pragma once
+
+#include "nephroid/caustics.hpp"
+#include "nephroid/emission/chart/chart_light.hpp"
+#include "nephroid/emission/light_set.hpp"
+#include "nephroid/sheet/light_sheets.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace nephroid {
+
+/// What became of the light that was drawn as sheets, and of the rest.
+struct SheetsAndSplats {
+    SheetStatistics sheets; ///< `sheets.handed_over` and `without_charts` are in none of its sums
+    Statistics splats;      ///< of the light that was traced again, from where those sheets and lamps emit it
+};
+
+namespace detail {
+/// Photons to splat a part of the light with: as many as it would have of the pass's, were all splatted.
+[[nodiscard]] inline PhotonPass pass_for(const PhotonPass& pass, double power, double of_power) {
+    const auto part = [share = of_power > 0 ? power / of_power : 1.0](std::uint64_t photons) {
+        return static_cast<std::uint64_t>(std::ceil(share * double(photons)));
+    };
+    PhotonPass its = pass;
+    its.count = (std::max)(part(pass.count), std::uint64_t(1));
+    its.first = pass.first / pass.count * its.count;
+    its.total = pass.total == 0 ? 0 : (std::max)(part(pass.total), its.count);
+    return its;
+}
+
+/// The lamps of a set that have no charts; of one lamp, that lamp.
+template <class L>
+[[nodiscard]] std::optional<L> without_charts(const L& light) {
+    if constexpr (requires { light.lights(); }) {
+        std::vector<typename L::AnyLight> without;
+        for (const auto& any : light.lights())
+            if (std::visit([](const auto& one) { return charts_of(one, 1).without > 0; }, any))
+                without.push_back(any);
+        return without.empty() ? std::nullopt : std::optional<L>(L(std::move(without)));
+    } else {
+        return charts_of(light, 1).without > 0 ? std::optional<L>(light) : std::nullopt;
+    }
+}
+} // namespace detail
+
+/// Adds a lamp's caustics to the sums: as light sheets, but what these cannot draw as splats. That are the parts of a
+/// lamp's chart more than a third of whose light lies where sheets end (cut gems, foam), all of it where the scene
+/// scatters by chance, and lamps that have no charts. No light is added twice, none is left out.
+///
+/// ```cpp
+/// auto sums = nephroid::sums<float>(map);
+/// nephroid::sheet_caustics(scene, light, sums, {.count = 20'000}, {}, threads);
+/// ```
+///
+/// @param scene, light, sums, executor  as for `caustics`
+/// @param pass     `count` photons make sheets, about; what is handed over is traced again with as many as fall to it
+/// @param options  of the sheets
+template <class S, class L, Vector3 V, Flux F, class R, class E = SerialExecutor>
+SheetsAndSplats sheet_caustics(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
+                               const SheetOptions& options = {}, E&& executor = E{}) {
+    struct Part {
+        EmissionChart<V, F> chart;
+        ChartRectangle rectangle;
+    };
+    std::vector<Part> parts;
+    std::vector<ChartRectangle> of_chart;
+    const EmissionChart<V, F>* at = nullptr;
+    EmissionChart<V, F> chart;
+    const auto finish_chart = [&] {
+        for (const ChartRectangle& rectangle : merged(std::move(of_chart)))
+            parts.push_back({chart, rectangle});
+        of_chart.clear();
+    };
+    const auto take_over = [&](const EmissionChart<V, F>& its, const ChartRectangle& rectangle) {
+        if (&its != at)
+            finish_chart();
+        at = &its;
+        chart = its;
+        of_chart.push_back(rectangle);
+    };
+    SheetsAndSplats result;
+    result.sheets = light_sheets(scene, light, sums, pass, options, executor, take_over);
+    finish_chart();
+
+    using Lamp = ChartLight<V, F>;
+    std::vector<std::variant<Lamp>> lamps;
+    double power = 0;
+    for (Part& part : parts) {
+        lamps.push_back(Lamp(std::move(part.chart), part.rectangle));
+        power += std::get<0>(lamps.back()).power();
+    }
+    double total = result.sheets.without_charts;
+    for (const auto& any : charts_of(light, options.lamp_points).charts)
+        total += any.power;
+    if (!lamps.empty())
+        result.splats +=
+            caustics(scene, LightSet<Lamp>(std::move(lamps)), sums, detail::pass_for(pass, power, total), executor);
+    if (const auto others = detail::without_charts(light))
+        result.splats +=
+            caustics(scene, *others, sums, detail::pass_for(pass, result.sheets.without_charts, total), executor);
+    return result;
+}
+
+} // namespace nephroid
