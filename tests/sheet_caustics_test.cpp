@@ -149,7 +149,7 @@ using Picture = std::vector<double>;
         Vec3 o(0.1f + 0.6f * (float(k % grid) + 0.5f) / float(grid),
                0.15f + 0.6f * (float(k / grid) + 0.5f) / float(grid), 1),
             d = direction;
-        for (int event = 0; event < 33; ++event) {
+        for (int event = 0; event < 300; ++event) {
             const auto hit = stone.intersect(o, d, event == 0 ? 0 : 1e-5f, 100);
             if (!hit)
                 break;
@@ -202,13 +202,10 @@ TEST_CASE("sheets and splats: a cut stone comes out no worse than by splats alon
     SheetsAndSplats result;
     const Picture both = drawn([&](auto& sums) { result = sheet_caustics(Stone(), sun(), sums, {.count = 20'000}); });
     const Picture splats = drawn([&](auto& sums) { (void)caustics(Stone(), sun(), sums, {.count = 20'000}); });
-    INFO("handed over ", result.sheets.sheets.handed_over.flux, " seen ", result.sheets.sheets.seen.flux, " emitted ",
-         result.splats.emitted.flux, " mean ", mean(exact), " ", mean(both), " ", mean(splats));
+    INFO("means: ", mean(exact), ", of both ", mean(both), ", of splats ", mean(splats));
     CHECK(result.sheets.sheets.handed_over.flux > 0.1 * result.sheets.sheets.seen.flux);
-    CHECK(relative_error(exact, both) < 1.02 * relative_error(exact, splats));
-    // Of the pixels' counts the borders of the picture are the kernels' and sheets' as well: to a hundredth.
-    CHECK(mean(both) == doctest::Approx(mean(exact)).epsilon(0.02));
-    MESSAGE("errors: both ", relative_error(exact, both), " splats ", relative_error(exact, splats));
+    CHECK(relative_error(exact, both) < 0.6 * relative_error(exact, splats));
+    CHECK(std::abs(mean(both) - mean(exact)) < 0.03 * mean(exact));
 }
 
 TEST_CASE("sheets and splats: what a scene scatters by chance is splatted, all of it") {
@@ -218,7 +215,7 @@ TEST_CASE("sheets and splats: what a scene scatters by chance is splatted, all o
     CHECK(result.sheets.sheets.by_chance > 0);
     CHECK(result.sheets.sheets.seen.flux == 0);
     const double emitted = 0.36 * std::abs(double(sun().direction().z));
-    CHECK(result.splats.emitted.flux == doctest::Approx(emitted).epsilon(1e-3));
+    CHECK(std::abs(result.splats.emitted.flux - emitted) < 1e-3 * emitted);
     CHECK(mean(both) > 0);
 }
 
@@ -244,15 +241,15 @@ TEST_CASE("chart light: rectangles that lie side by side are joined") {
 TEST_CASE("chart light: it emits the flux of its part, and tangents as a beam's patch has them") {
     const auto charts = sun().charts();
     const ChartLight<Vec3, float> part(charts[0], {0.25, 0.5, 0, 0.5});
-    CHECK(part.power() == doctest::Approx(sun().power() / 8).epsilon(1e-5));
+    CHECK(std::abs(part.power() - sun().power() / 8) < 1e-5 * sun().power());
     Middle middle;
     const Spread<float> spread{100, 1};
     const Photon<Vec3, float> photon = part.emit(middle, spread);
-    CHECK(double(photon.flux) == doctest::Approx(part.power() / 100));
+    CHECK(std::abs(double(photon.flux) * 100 - part.power()) < 1e-5 * part.power());
     CHECK(glm::length(photon.position - Vec3(0.1f + 0.375f * 0.6f, 0.15f + 0.25f * 0.6f, 1)) < 1e-5f);
     // Footprints, ellipses of these axes, add up to the part's area.
     const auto& d = photon.differential;
     const float area = glm::length(glm::cross(Vec3(d[0].d_position), Vec3(d[1].d_position)));
-    CHECK(double(area) * 3.14159265 / 4 * 100 == doctest::Approx(0.36 / 8).epsilon(1e-3));
+    CHECK(std::abs(double(area) * 3.14159265 / 4 * 100 - 0.36 / 8) < 1e-3 * 0.36 / 8);
     CHECK(glm::length(Vec3(d[0].d_direction)) == 0);
 }

@@ -144,7 +144,8 @@ TEST_CASE("light sheets: a shelf a fifteenth of a pixel below another gets no li
     add_pixels(vertices, 0.002f, 0, 0.5f);
     const std::size_t on_upper = vertices.size();
     add_pixels(vertices, 0);
-    const Result result = draw({{{0.002f, -10, 0.5f}, {0, -10, 10}}}, beam(0, 1), vertices, 1000);
+    // Cells no wider than a pixel: two heights within a tenth of a pixel are one surface to the cell at the edge.
+    const Result result = draw({{{0.002f, -10, 0.5f}, {0, -10, 10}}}, beam(0, 1), vertices, 1200);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const float x = vertices[i].position.x;
         if (i >= on_upper && x < 0.5f - 1.0f / side)

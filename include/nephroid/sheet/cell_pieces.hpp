@@ -2,6 +2,7 @@
 /// @file  A cell of a chart becomes light on the receiver: a patch where it is whole, polygons where sheets end in it.
 #pragma once
 
+#include "nephroid/sheet/cell_density.hpp"
 #include "nephroid/sheet/cell_outline.hpp"
 #include "nephroid/sheet/cell_tangents.hpp"
 #include "nephroid/sheet/patch_blocks.hpp"
@@ -12,7 +13,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 namespace nephroid::detail {
@@ -114,43 +114,10 @@ private:
                 patch.normal[i][j] = double3(ends[k]->normal);
                 patch.direction[i][j] = double3(ends[k]->direction);
             }
-        patch.flux = static_cast<F>(mean_density(cell, ends) * T(area_of(cell)));
+        patch.flux = static_cast<F>(mean_density<V, F>(cell, ends, known) * T(area_of(cell)));
         const bool is_seen =
-            blocks_.add(patch, square(brightness_.allowance(irradiance(patch))), tile_.pieces, visitor());
+            blocks_.add(patch, square(brightness_.allowance(mean_irradiance(patch))), tile_.pieces, visitor());
         account_.book(patch.flux, is_seen, false);
-    }
-
-    /// The mean on a patch, from its corners.
-    [[nodiscard]] static double irradiance(const LitPatch<V, F>& patch) {
-        const auto& c = patch.corners;
-        const double area =
-            0.5 * length(plain_cross(c[1][1].position - c[0][0].position, c[0][1].position - c[1][0].position));
-        return area > 0 ? flux_traits<F>::power(patch.flux) / area : std::numeric_limits<double>::infinity();
-    }
-
-    /// The mean over the cell of the quadratic through the nine nodes of its block of 2 × 2 cells [Newton and Cotes:
-    /// weights (5, 8, −1)/12 along each axis]; of the corners where the block is not whole.
-    [[nodiscard]] F mean_density(const Cell& cell, const std::array<const Node*, 4>& ends) const {
-        const std::int64_t step = cell.step;
-        const LatticePlace block{cell.place.i & ~(2 * step - 1), cell.place.j & ~(2 * step - 1)};
-        constexpr std::array<double, 3> weight = {5.0 / 12, 8.0 / 12, -1.0 / 12};
-        F sum = flux_traits<F>::zero();
-        for (std::int64_t j = 0; j < 3; ++j)
-            for (std::int64_t i = 0; i < 3; ++i) {
-                const Node* const node =
-                    end_of<V, F>(nodes_.known({block.i + i * step, block.j + j * step}), ends[0]->signature);
-                if (!node)
-                    return mean_of_corners(ends);
-                const double along_u = weight[std::size_t(cell.place.i == block.i ? i : 2 - i)],
-                             along_v = weight[std::size_t(cell.place.j == block.j ? j : 2 - j)];
-                sum = sum + node->density * T(along_u * along_v);
-            }
-        // Where the density falls to nothing the quadratic may pass it.
-        return flux_traits<F>::power(sum) > 0 ? sum : mean_of_corners(ends);
-    }
-
-    [[nodiscard]] static F mean_of_corners(const std::array<const Node*, 4>& ends) {
-        return static_cast<F>((ends[0]->density + ends[1]->density + (ends[2]->density + ends[3]->density)) * T(0.25));
     }
 
     void add_outline(const Cell& cell, const CellOutline<V, F>& outline, double scale) {

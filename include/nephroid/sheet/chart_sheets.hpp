@@ -6,39 +6,21 @@
 #include "nephroid/receiver/sums.hpp"
 #include "nephroid/sheet/cell_pieces.hpp"
 #include "nephroid/sheet/leaf_bins.hpp"
+#include "nephroid/sheet/node_shares.hpp"
 #include "nephroid/sheet/node_tracer.hpp"
 #include "nephroid/sheet/refine.hpp"
 #include "nephroid/sheet/sheet_grid.hpp"
+#include "nephroid/sheet/sheet_options.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace nephroid {
-
-/// How light sheets are made.
-struct SheetOptions {
-    Tessellation tessellation{};
-    Refinement refinement{};
-    std::size_t lamp_points = 64; ///< that stand for a lamp with extent, >= 1
-};
-
-/// What became of the light, and of its sheets.
-struct SheetStatistics {
-    Statistics light;          ///< emitted.flux is the sum over all fates and `unresolved`
-    SheetAccount sheets;       ///< how much is whole and cut
-    double without_charts = 0; ///< power of lamps that have no charts: nothing is drawn of them
-    double unresolved = 0; ///< flux of nodes that landed less that of the sheets between them: what lies between nodes
-                           ///< and was not met, or was taken for more than it is
-};
-
-/// Nobody takes over what is broken: it is drawn as well as may be, and counted.
-struct DrawBroken {};
 
 namespace detail {
 
@@ -62,11 +44,14 @@ public:
             announce(executor_, Phase::trace);
             trace(lattice, sector, statistics);
             const std::vector<CellRange> tiles = tiles_of(sector);
-            share_out(lattice, tiles, refining * double(sector.cells()) / double(lattice.cells_u * lattice.cells_v));
+            const double nodes = refining * double(sector.cells()) / double(lattice.cells_u * lattice.cells_v);
+            const std::vector<double> most_nodes =
+                nodes_of_tiles(BlockNeeds<V, F>(pixels_, options_.refinement, lattice.area()), grid_, lattice, tiles,
+                               nodes, executor_);
             for (std::size_t first = 0; first < tiles.size(); first += tiles_per_batch) {
                 const auto batch = std::span(tiles).subspan(first, (std::min)(tiles_per_batch, tiles.size() - first));
                 announce(executor_, Phase::fit);
-                cut_up(lattice, batch, std::span(most_nodes_).subspan(first, batch.size()), statistics);
+                cut_up(lattice, batch, std::span(most_nodes).subspan(first, batch.size()), statistics);
                 announce(executor_, Phase::splat);
                 add_to_sums(batch.size());
             }
@@ -95,28 +80,6 @@ private:
             statistics.unresolved += traced.landed;
             statistics.sheets.by_chance += traced.by_chance;
         }
-    }
-
-    /// Says of each tile how many nodes may be added to it: as its blocks need.
-    void share_out(const Lattice& lattice, std::span<const CellRange> tiles, double nodes) {
-        most_nodes_.assign(tiles.size(), 0);
-        if (lattice.levels == 0)
-            return;
-        const BlockNeeds<V, F> needs(pixels_, options_.refinement, lattice.area());
-        executor_(tiles.size(), [&](std::size_t i) {
-            const std::int64_t step = lattice.step();
-            const auto known = [&](const LatticePlace& p) { return grid_.has(p) ? grid_[p] : NodeEnds<V, F>{}; };
-            for (std::int64_t v = tiles[i].begin_v; v < tiles[i].end_v; v += 2)
-                for (std::int64_t u = tiles[i].begin_u; u < tiles[i].end_u; u += 2) {
-                    const LatticePlace place{u * step, v * step};
-                    most_nodes_[i] +=
-                        needs(block_at<V, F>(place, step, known), place, step, known).photons(lattice.levels);
-                }
-            most_nodes_[i] += 12; // for what lies between the regular nodes
-        });
-        const double wanted = std::accumulate(most_nodes_.begin(), most_nodes_.end(), 0.0);
-        for (double& most : most_nodes_)
-            most *= nodes / wanted;
     }
 
     void cut_up(const Lattice& lattice, std::span<const CellRange> tiles, std::span<const double> most_nodes,
@@ -219,7 +182,6 @@ private:
     TakeOver& take_over_;
     NodeGrid<V, F> grid_;
     std::vector<TracedNodes> traced_;
-    std::vector<double> most_nodes_; ///< added to a tile, by tile of a sector
     std::vector<TilePieces<V, F>> tiles_;
     std::vector<char> is_broken_;
     bool is_by_chance_ = false; ///< the sector's paths are no function of where they begin

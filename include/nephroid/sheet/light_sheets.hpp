@@ -21,10 +21,10 @@ namespace nephroid {
 /// @param scene      as for `caustics`; `SheetAccount::by_chance` counts where it asked for a random number
 /// @param light      one light or a set
 /// @param sums       what is added to
-/// @param pass       about `count` photons are traced in all: a sixteenth as a pilot, the others as the corners of cells,
-///                   regular ones first, then of those that are split. Where sheets end within cells a few more look for
-///                   where. Of a part of a picture (`total` larger than `count`) this is a whole picture, weighted by
-///                   its part
+/// @param pass       about `count` photons are traced in all: a sixteenth as a pilot, the others as corners of cells,
+///                   the regular ones first, then those of cells that are split. Where sheets end within cells a few
+///                   more look for where. Of a part of a picture (`total` larger than `count`) this is a whole
+///                   picture, weighted by its part
 /// @param options    how finely
 /// @param executor   the sums do not depend on it, bit for bit
 /// @param take_over  take_over(chart, rectangle): called for each part of a chart whose sheets are too broken to be

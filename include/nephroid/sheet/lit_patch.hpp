@@ -21,6 +21,11 @@ struct LitPatch {
     F flux;
 };
 
+/// Between values at the corners, [i][j] at u = i, v = j.
+[[nodiscard]] inline Double3 bilinear(const std::array<std::array<Double3, 2>, 2>& at, double u, double v) {
+    return (1 - v) * ((1 - u) * at[0][0] + u * at[1][0]) + v * ((1 - u) * at[0][1] + u * at[1][1]);
+}
+
 /// How a patch lies on its receiver.
 struct PatchSag {
     double sag;       ///< how far corners lie above the tangent planes of others, the furthest

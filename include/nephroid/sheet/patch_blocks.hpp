@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/sheet/block_edges.hpp"
+#include "nephroid/sheet/block_sides.hpp"
 #include "nephroid/sheet/lit_patch.hpp"
 #include "nephroid/sheet/patch_bounds.hpp"
 #include "nephroid/sheet/sheet_block.hpp"
@@ -77,11 +78,6 @@ private:
     struct Range {
         unsigned begin, end;
     };
-
-    template <class Corners>
-    [[nodiscard]] static Double3 bilinear(const Corners& at, double u, double v) {
-        return (1 - v) * ((1 - u) * at[0][0] + u * at[1][0]) + v * ((1 - u) * at[0][1] + u * at[1][1]);
-    }
 
     /// Finds the leaves that a box reaches, and the smallest pixel there.
     bool leaves_in(const Box<double>& box) {
@@ -161,24 +157,6 @@ private:
         const Box<T> reach = narrowed_box<T>(box);
         return std::any_of(leaves_.begin(), leaves_.end(),
                            [&](std::uint32_t leaf) { return pixels_.leaves()[leaf].box.overlaps(reach); });
-    }
-
-    static void set_sides(SheetBlock<V, F>& block, const QuadGrid& grid, const Double3& normal) {
-        const auto& c = grid.corner;
-        const std::size_t rows = grid.rows, columns = grid.columns;
-        const std::array<Double3, 2> sides = {(c[0][columns] - c[0][0]) + (c[rows][columns] - c[rows][0]),
-                                              (c[rows][0] - c[0][0]) + (c[rows][columns] - c[0][columns])};
-        for (std::size_t k = 0; k < 2; ++k) {
-            const Double3 axis = unit_or_zero(plain_cross(normal, sides[k]));
-            double low = 0, high = 0;
-            for (std::size_t j = 0; j <= rows; ++j)
-                for (std::size_t i = 0; i <= columns; ++i) {
-                    const double x = dot(axis, c[j][i]);
-                    low = (std::min)(low, x), high = (std::max)(high, x);
-                }
-            block.across[k] = {T(axis.x), T(axis.y), T(axis.z)};
-            block.low[k] = T(low), block.high[k] = T(high);
-        }
     }
 
     template <class Visit>
