@@ -98,9 +98,10 @@ private:
         // By rank, as all pairs are compared without a branch. Coordinates to a part in 2²⁴ of the width, made
         // different by where they stand.
         std::array<std::int32_t, most> key{}, rank{};
-        const float scale = widest > T(0) ? 16777215.0f / float(widest) : 0.0f;
+        const float width = float(widest), scale = width > 1e-30f && width < 1e30f ? 16777215.0f / width : 0.0f;
         for (std::size_t i = 0; i < slots.size(); ++i)
-            key[i] = std::int32_t(float(along[i] - lowest) * scale) * std::int32_t(most) + std::int32_t(i);
+            key[i] = std::int32_t(scale > 0 ? float(along[i] - lowest) * scale : 0.0f) * std::int32_t(most) +
+                     std::int32_t(i);
         for (std::size_t j = 0; j < slots.size(); ++j)
             for (std::size_t i = 0; i < most; ++i)
                 rank[i] += std::int32_t(key[j] < key[i]);
