@@ -48,7 +48,7 @@ template <class T, Flux F>
 struct Lamps {
     std::vector<Lamp<T, F>> lamps;
     std::vector<AreaLamp<T, F>> areas;
-    std::vector<std::shared_ptr<const Environment<T, F>>> environments;
+    std::vector<std::shared_ptr<const Environment<T, F>>> environments{};
 
     [[nodiscard]] bool empty() const { return lamps.empty() && areas.empty() && environments.empty(); }
 
