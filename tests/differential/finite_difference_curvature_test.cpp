@@ -18,7 +18,6 @@
 #include <vector>
 
 using namespace nephroid;
-using detail::draw_point;
 using tests::Draws;
 
 namespace {
