@@ -81,7 +81,7 @@ Vec<T> spawned(const H& hit, const Vec<T>& direction) {
     Statistics account;
     nephroid::Photon<Vec<T>, T> photon{hit.position, direction, T(1), {}};
     nephroid::detail::PhotonSteps<Space, Vec<T>, T, 2> steps(space, photon, account);
-    steps.leave(hit);
+    steps.leave(hit, false);
     return steps.photon().position;
 }
 
