@@ -230,6 +230,17 @@ TEST_CASE("sheets and splats: a lamp without a chart is splatted") {
     CHECK(both == splats);
 }
 
+TEST_CASE("sheets and splats: what a pass hands over is the same part of its picture as the pass") {
+    for (const double share : {1e-4, 1.0 / 384, 1.0 / 64, 0.3, 1.0})
+        for (const PhotonPass& pass : {PhotonPass{.first = 3000, .count = 1000, .total = 100'000},
+                                       PhotonPass{.first = 0, .count = 100, .total = 10'000}}) {
+            CAPTURE(share);
+            const PhotonPass its = detail::pass_for(pass, share, 1);
+            CHECK(its.count * pass.total == its.total * pass.count);
+            CHECK(its.first * pass.count == its.count * pass.first);
+        }
+}
+
 TEST_CASE("chart light: rectangles that lie side by side are joined") {
     const std::vector<ChartRectangle> parts =
         merged({{0, 0.25, 0, 0.5}, {0.25, 0.5, 0, 0.5}, {0, 0.25, 0.5, 1}, {0.25, 0.5, 0.5, 1}, {0.75, 1, 0, 0.5}});

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -25,13 +26,15 @@ struct SheetsAndSplats {
 namespace detail {
 /// Photons to splat a part of the light with: as many as it would have of the pass's, were all splatted.
 [[nodiscard]] inline PhotonPass pass_for(const PhotonPass& pass, double power, double of_power) {
-    const auto part = [share = of_power > 0 ? power / of_power : 1.0](std::uint64_t photons) {
-        return static_cast<std::uint64_t>(std::ceil(share * double(photons)));
-    };
+    const double share = of_power > 0 ? power / of_power : 1.0;
     PhotonPass its = pass;
-    its.count = (std::max)(part(pass.count), std::uint64_t(1));
+    its.count = (std::max)(static_cast<std::uint64_t>(std::ceil(share * double(pass.count))), std::uint64_t(1));
     its.first = pass.first / pass.count * its.count;
-    its.total = pass.total == 0 ? 0 : (std::max)(part(pass.total), its.count);
+    // From the rounded count, so that a part of a picture stays the same part of it.
+    if (pass.total != 0)
+        its.total = (std::max)(
+            static_cast<std::uint64_t>(std::llround(double(its.count) * double(pass.total) / double(pass.count))),
+            its.count);
     return its;
 }
 
@@ -60,7 +63,8 @@ template <class L>
 /// ```
 ///
 /// @param scene, light, sums, executor  as for `caustics`
-/// @param pass     `count` photons make sheets, about; what is handed over is traced again with as many as fall to it
+/// @param pass     `count` photons make sheets, about; what is handed over is traced again with as many as fall to it.
+///                 Of passes that make one picture, each has the same `count`, and `first` a multiple of it
 /// @param options  of the sheets
 template <class S, class L, Vector3 V, Flux F, class R, class E = SerialExecutor>
 SheetsAndSplats sheet_caustics(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,

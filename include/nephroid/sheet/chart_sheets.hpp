@@ -63,7 +63,7 @@ private:
     static constexpr bool is_taken_over = !std::is_same_v<TakeOver, DrawBroken>;
 
     void trace(const Lattice& lattice, const CellRange& sector, SheetStatistics& statistics) {
-        traced_.assign(1024, {});
+        traced_.assign(grid_.tasks_of(lattice, sector), {});
         grid_.fill(
             lattice, sector,
             [&](const LatticePlace& place, std::vector<Node>& ends, std::size_t task) {
@@ -115,7 +115,7 @@ private:
             accounts[i].sheets.nodes += nodes.added();
             accounts[i].sheets.by_chance += traced.by_chance;
             accounts[i].light = traced.account;
-            is_broken_[i] = is_broken(accounts[i].sheets) || (is_taken_over && is_by_chance_);
+            is_broken_[i] = is_broken(accounts[i].sheets) || (is_taken_over && (is_by_chance_ || traced.by_chance > 0));
             if (is_broken_[i])
                 give_away(tiles_[i], accounts[i].sheets);
         });

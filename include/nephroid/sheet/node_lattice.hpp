@@ -72,6 +72,12 @@ public:
     using Node = NodeEnd<V, F>;
     static constexpr std::int64_t ring = 2;
 
+    /// How many tasks `fill` gives to its executor.
+    [[nodiscard]] static std::size_t tasks_of(const Lattice& lattice, const CellRange& cells) {
+        const auto strips = [](std::int64_t nodes) { return std::size_t((nodes + width - 1) / width); };
+        return strips(columns_of(lattice, cells)) * strips(rows_of(lattice, cells));
+    }
+
     /// @param trace  trace(place, ends, task): appends the ends of a node; called from several threads
     template <class Trace, class E>
     void fill(const Lattice& lattice, const CellRange& cells, const Trace& trace, E& executor) {
@@ -79,8 +85,8 @@ public:
         step_ = step;
         begin_u_ = (std::max)(std::int64_t(0), cells.begin_u - ring);
         begin_v_ = (std::max)(std::int64_t(0), cells.begin_v - ring);
-        columns_ = (std::min)(lattice.cells_u, cells.end_u + ring) + 1 - begin_u_;
-        rows_ = (std::min)(lattice.cells_v, cells.end_v + ring) + 1 - begin_v_;
+        columns_ = columns_of(lattice, cells);
+        rows_ = rows_of(lattice, cells);
         ranges_.assign(std::size_t(columns_ * rows_), {});
         // Strips of rows: neighbours one after the other, as their rays meet the same things.
         const auto tasks_across = std::size_t((columns_ + width - 1) / width),
@@ -123,6 +129,12 @@ private:
         std::uint32_t pool, first, size;
     };
 
+    [[nodiscard]] static std::int64_t columns_of(const Lattice& lattice, const CellRange& cells) {
+        return (std::min)(lattice.cells_u, cells.end_u + ring) + 1 - (std::max)(std::int64_t(0), cells.begin_u - ring);
+    }
+    [[nodiscard]] static std::int64_t rows_of(const Lattice& lattice, const CellRange& cells) {
+        return (std::min)(lattice.cells_v, cells.end_v + ring) + 1 - (std::max)(std::int64_t(0), cells.begin_v - ring);
+    }
     [[nodiscard]] std::size_t index(std::int64_t i, std::int64_t j) const { return std::size_t(j * columns_ + i); }
 
     std::int64_t step_ = 1, begin_u_ = 0, begin_v_ = 0, columns_ = 0, rows_ = 0;

@@ -71,12 +71,13 @@ private:
     template <class E, class Visit>
     void look_at(const EmissionChart<V, F>& chart, const Lattice& lattice, E& executor, PilotResult& result,
                  const Visit& visit) {
-        std::vector<TracedNodes> traced(1024);
+        const CellRange all{0, lattice.cells_u, 0, lattice.cells_v};
+        std::vector<TracedNodes> traced(grid_.tasks_of(lattice, all));
         const auto trace = [&](const LatticePlace& place, std::vector<NodeEnd<V, F>>& ends, std::size_t task) {
             trace_node(scene_, chart, T(lattice.u(place)), T(lattice.v(place)), 0, pixels_.map().tree().origin(),
                        limits_, ends, traced[task]);
         };
-        grid_.fill(lattice, {0, lattice.cells_u, 0, lattice.cells_v}, trace, executor);
+        grid_.fill(lattice, all, trace, executor);
         result.nodes += grid_.size();
         for (const TracedNodes& some : traced)
             result.by_chance += some.by_chance;
