@@ -95,7 +95,8 @@ public:
             if (path.contacts.is_here(hit->distance, slope) && hit->surface == path.left &&
                 (slope > T(0)) == path.contacts.leaves_along_normal()) { // the triangle beside, at their edge
                 path.contacts.leave_beside(hit->primitive);
-                pending_.push_back(path);
+                if (++passed_ <= 1000) // at a vertex of many triangles, again and again
+                    pending_.push_back(path);
                 continue;
             }
             const T flown = (std::max)(hit->distance, T(0)); // less where surfaces touch

@@ -158,3 +158,22 @@ TEST_CASE("contacts: a ball is met again from its inside and not from where it w
     CHECK_FALSE(contacts.leave_out(8, 1e-9, -0.6)); // another that touches
     CHECK(contacts.leave_out(8, -1e-3, -0.6));      // what lies behind
 }
+
+// Sheets that are found again where the ray begins: the one that was left, as if it were the triangle beside it.
+struct LeavesNothingOut : SheetScene<float> {
+    using SheetScene<float>::intersect;
+    [[nodiscard]] std::optional<H> intersect(const V& o, const V& d, float t_min, float t_max,
+                                             const Contacts<float>&) const {
+        return intersect(o, d, t_min, t_max);
+    }
+};
+static_assert(LetsSurfacesTouch<LeavesNothingOut, V>);
+
+TEST_CASE("contacts: a photon ends as terminated where a scene leaves nothing out") {
+    const LeavesNothingOut scene{
+        {{{{0, 0, 1}, {0, 0, 1}, Event::refract, 1, 1, 1.5f}, {{0, 0, 0}, {0, 0, 1}, Event::deposit}}}};
+    tests::Constant numbers;
+    Statistics account;
+    CHECK_FALSE(walk(scene, tests::collimated<float>({0, 0, 2}, {0, 0, -1}), numbers, {}, account));
+    CHECK(account[Fate::terminated].photons == 1);
+}

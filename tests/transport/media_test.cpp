@@ -190,3 +190,20 @@ TEST_CASE("media: false surfaces alone make no caustic and one without end ends 
     CHECK_FALSE(walk(endless, tests::collimated<double>({0, 0, 2}, {0, 0, -1}), numbers, {}, of_endless));
     CHECK(of_endless[Fate::terminated].photons == 1);
 }
+
+TEST_CASE("media: flights end and begin at false surfaces too") {
+    struct Flights {
+        std::vector<Flight<V, double>> seen;
+        void flight(const Flight<V, double>& flight) { seen.push_back(flight); }
+    } flights;
+    Tank tank{{{{{0, 0, 1}, up, Event::refract}, {{0, 0, 0}, up, Event::deposit}}}, {glass, Media::none}};
+    tank.about_the_lamp.enter(glass);
+    tests::Constant numbers;
+    Statistics account;
+    CHECK_FALSE(walk(tank, tests::collimated<double>({0, 0, 3}, {0, 0, -1}), numbers, {}, account, flights));
+    REQUIRE(flights.seen.size() == 2);
+    CHECK(flights.seen[0].origin.z == 3);
+    CHECK(std::abs(flights.seen[0].distance - 2) <= 1e-12);
+    CHECK(std::abs(flights.seen[1].origin.z - 1) <= 1e-12);
+    CHECK(std::abs(flights.seen[1].distance - 1) <= 1e-12);
+}

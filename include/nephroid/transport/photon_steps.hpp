@@ -63,7 +63,7 @@ public:
             photon_.position = hit.position;
         else
             photon_.position = photon_.position + distance * photon_.direction;
-        const T flown = distance - skipped_by_tracer<V>(scene_);
+        const T flown = (std::max)(distance - skipped_by_tracer<V>(scene_), T(0)); // less by rounding
         ray_start_.arrive(hit, photon_, flown);
         if constexpr (Absorbs<S, V>)
             return weigh(scene_.transmittance(medium_, flown));
@@ -113,12 +113,11 @@ public:
         return true;
     }
 
-    /// Goes on through a surface that light does not notice.
+    /// Into what lies behind a surface that light does not notice.
     template <class Scattering>
-    void pass(const H& hit, const Scattering& scattering) {
+    void enter([[maybe_unused]] const Scattering& scattering) {
         if constexpr (requires { medium_ = scattering.medium; })
             medium_ = scattering.medium;
-        leave(hit, true);
     }
 
     /// Ends the photon with the probability that its flux has fallen to; else it carries on for those that ended.

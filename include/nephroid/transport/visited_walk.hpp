@@ -50,7 +50,7 @@ private:
     static constexpr bool all_ways = follows_all_ways<Visitor>;
     static constexpr bool may_part = all_ways && ScattersAllWays<S, V>;
     static constexpr unsigned most_lamp_surfaces = 4; // of both sides of its sheets; more are the tracer's mistake
-    static constexpr unsigned most_passed = 1000; // false surfaces; a tracer that finds one again and again has no end
+    static constexpr unsigned most_passed = 1000; // false surfaces and edges; who finds one again and again has no end
     using waiting_t = typename waiting_of<S, V, F, N, trail_t<Visitor>, may_part>::type;
 
     /// To the next surface, and off it again. @return  whether the photon goes on
@@ -60,12 +60,14 @@ private:
             return steps_.end(Fate::invalid);
         ++account_.rays;
         const auto hit = steps_.next_hit();
-        if (hit && steps_.is_on_edge(*hit))
-            return true;
+        if (hit && steps_.is_on_edge(*hit)) // at a vertex of many triangles, or for a scene that leaves none out, again
+            return passed_++ < most_passed || steps_.end(Fate::terminated);
         if constexpr (tells_flights) {
             const T distance = hit ? T((*hit).distance) : std::numeric_limits<T>::infinity();
             const std::optional<V> end_normal = hit ? std::optional<V>(steps_.facing_normal(*hit)) : std::nullopt;
-            visitor_.flight(departure_.flight(now, steps_.ray_start().from_surface(distance), end_normal, path_));
+            // Less than 0 by rounding, where surfaces touch.
+            const T length = (std::max)(steps_.ray_start().from_surface(distance), T(0));
+            visitor_.flight(departure_.flight(now, length, end_normal, path_));
         }
         if (!hit) {
             account_.escaped_first += path_.is_direct();
@@ -85,12 +87,14 @@ private:
         if (scattering.event == Event::pass) {
             if (passed_++ == most_passed)
                 return steps_.end(Fate::terminated);
-            steps_.pass(hit, scattering);
+            steps_.enter(scattering);
+            leave(hit, true);
             return true;
         }
         const bool is_opaque = scattering.event == Event::absorb || scattering.event == Event::deposit;
         if (steps_.ray_start().began_here()) {
-            if (path_.is_direct() && (is_opaque || !steps_.is_in_front_of(hit)) && lamp_surfaces_ < most_lamp_surfaces)
+            if (path_.is_direct() && passed_ == 0 && (is_opaque || !steps_.is_in_front_of(hit)) &&
+                lamp_surfaces_ < most_lamp_surfaces)
                 return leave_lamp(hit);
             if constexpr (!LetsSurfacesTouch<S, V>)
                 ++account_.hits_at_start;
