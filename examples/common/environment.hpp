@@ -68,7 +68,8 @@ public:
     [[nodiscard]] F radiance(const Vec3<T>& towards) const {
         if (columns_ > 0)
             return interpolated(towards);
-        return is_lamp() && !(1 - double(dot(towards, towards_)) <= height_) ? flux_traits<F>::zero() : radiance_;
+        return is_lamp() && !(0.5 * double(length2(towards - towards_)) <= height_) ? flux_traits<F>::zero()
+                                                                                    : radiance_;
     }
 
     /// @param u1,u2  0 to 1; the first is the longitude, or across a sun's disk

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string>
@@ -134,7 +135,7 @@ struct Flawed : L {
     template <class S>
     [[nodiscard]] auto emit(S& samples, const Spread<T>& spread) const {
         auto photon = L::emit(samples, spread);
-        const int which = int(photon.position.x * 997) % 6; // by where it starts: any light's photons do
+        const int which = std::abs(int(photon.position.x * 997)) % 6; // by where it starts: any light's photons do
         if (which == 1)
             photon.flux = 0;
         if (which == 2)

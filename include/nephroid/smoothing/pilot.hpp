@@ -29,7 +29,7 @@ using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type, 
 template <class S, class L, class Sequence>
 [[nodiscard]] traced_photon_t<L> trace_photon(const S& scene, const L& light, const PhotonPass& pass,
                                               const Sequence& sequence, std::uint64_t index, Statistics& account,
-                                              PathTrail& trail) {
+                                              PathTrail<typename L::vector>& trail) {
     using T = scalar_t<typename L::vector>;
     const Spread<T> spread{T(pass.emitted_in_all()), T(1)};
     Sampler<Sequence> sampler(sequence, index);
@@ -68,7 +68,7 @@ template <class S, class L, class Sequence, class E>
     typename PathPieces<typename L::vector>::FirstPoints firsts(count);
     for_each_index(executor, count, 512, [&](std::size_t position) {
         const std::size_t i = sorted[position].number;
-        PathTrail trail;
+        PathTrail<typename L::vector> trail;
         pilot.photons[i] = trace_photon(scene, light, pass, sequence, pilot.first + i, pilot.accounts[i], trail);
         firsts[i] = trail.first();
     });

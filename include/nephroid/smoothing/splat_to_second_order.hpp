@@ -66,7 +66,7 @@ Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& 
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {
         if (pilot.has(pass.first + i))
             return pilot.take(pass.first + i, account);
-        PathTrail trail;
+        PathTrail<typename L::vector> trail;
         auto photon = trace_photon(scene, light, pass, sequence, pass.first + i, account, trail);
         pilot.pieces.tell_apart(photon, trail.first());
         return photon;

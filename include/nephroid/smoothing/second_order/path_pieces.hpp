@@ -7,6 +7,7 @@
 #include "nephroid/execution/task_runner.hpp"
 #include "nephroid/smoothing/second_order/emission_cells.hpp"
 #include "nephroid/smoothing/second_order/surface_pieces.hpp"
+#include "nephroid/transport/hit.hpp"
 #include "nephroid/transport/trail.hpp"
 
 #include <algorithm>
@@ -17,15 +18,16 @@
 namespace nephroid::detail {
 
 /// A path's signature, and the first surface that it met.
+template <Vector3 V>
 class PathTrail : public PathSignature {
 public:
     template <class Hit>
     void meet(const Hit& hit, bool from_front, bool passed) {
         PathSignature::meet(hit, from_front, passed);
-        if constexpr (requires { hit.position; })
+        if constexpr (HasPosition<Hit, V>)
             if (!first_) {
                 const double side = from_front ? 1 : -1;
-                first_ = {space3(hit.position), side * space3(hit.geometric_normal)};
+                first_ = {space3(V(hit.position)), side * space3(V(hit.geometric_normal))};
             }
     }
 
