@@ -58,7 +58,7 @@ std::vector<std::shared_ptr<const Around>> all_kinds() {
 TEST_CASE(
     "environment: directions are drawn with the density that is said, and radiance over it adds up to the total") {
     for (const auto& around : all_kinds()) {
-        Mean total, ones;
+        Mean total;
         constexpr int n = 300;
         for (int i = 0; i < n; ++i)
             for (int j = 0; j < n; ++j) {
