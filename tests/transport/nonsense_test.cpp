@@ -3,8 +3,8 @@
 // tests/README.md, "Nonsense and its answers".
 #include "nephroid/caustics.hpp"
 #include "nephroid/differential/finite_difference_curvature.hpp"
-#include "nephroid/gather/trace_photons.hpp"
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/gather/trace_photons.hpp"
 #include "transport/follow.hpp"
 
 #include "support/vertex.hpp"

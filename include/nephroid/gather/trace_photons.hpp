@@ -2,8 +2,8 @@
 /// @file  Traces photons and keeps them, for photon maps.
 #pragma once
 
-#include "nephroid/execution/checked_executor.hpp"
 #include "nephroid/emission/without_tangents.hpp"
+#include "nephroid/execution/checked_executor.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/pass/traced_batch.hpp"
 #include "nephroid/sequence/halton.hpp"

@@ -5,8 +5,8 @@
 #include "nephroid/pass/traced_batch.hpp"
 #include "nephroid/smoothing/cross_validation.hpp"
 #include "nephroid/smoothing/pilot.hpp"
-#include "nephroid/smoothing/policies.hpp"
 #include "nephroid/smoothing/second_order/curved_footprints.hpp"
+#include "nephroid/smoothing/second_order/policies.hpp"
 #include "nephroid/splat/splat_in_batches.hpp"
 
 #include <array>

@@ -39,7 +39,8 @@ concept FiltersPixels = std::same_as<P, NoPixelFilter> || requires(const P filte
     { filter.width_scale } -> std::convertible_to<double>;
 };
 
-/// A type that says whether splats depend on the photons around them, as with `SecondOrder` (smoothing/policies.hpp).
+/// A type that says whether splats depend on the photons around them, as with `SecondOrder`
+/// (smoothing/second_order/policies.hpp).
 template <class P>
 concept SplatOrder = requires {
     { P::uses_neighbours } -> std::convertible_to<bool>;
@@ -76,7 +77,7 @@ template <class Order>
 consteval bool explain_order() {
     static_assert(SplatOrder<Order>,
                   "nephroid: the order policy must be FirstOrder (splat/splat_policies.hpp), SecondOrder or "
-                  "CurvedFootprints (smoothing/policies.hpp)");
+                  "CurvedFootprints (smoothing/second_order/policies.hpp)");
     return false;
 }
 
@@ -89,7 +90,7 @@ concept MustBePolicies = ((std::semiregular<K> && MapsAnyRadius2<K>) || explain_
 } // namespace detail
 
 /// How a photon becomes a splat. The type of every member is a policy. Begin with a preset, `Published` or `Default`
-/// (smoothing/policies.hpp), set its policies' options, and replace the policies that do not suit:
+/// (smoothing/second_order/policies.hpp), set its policies' options, and replace the policies that do not suit:
 ///
 /// ```cpp
 /// nephroid::Default policies{.filter = {1.244}};
@@ -103,7 +104,7 @@ struct SplatPolicies {
     Collapse collapse{}; ///< what to do with footprints without area (footprint/policies.hpp)
     Excess excess{};     ///< what to do with footprints that are too long
     Shape shape{};       ///< DifferentialFootprint, or FixedFootprint (splat/footprint_shape.hpp)
-    Order order{};       ///< FirstOrder, SecondOrder or CurvedFootprints (smoothing/policies.hpp)
+    Order order{};       ///< FirstOrder, SecondOrder or CurvedFootprints (smoothing/second_order/policies.hpp)
     /// Largest distance of a vertex from the photon's tangent plane, in minor radii of the footprint; vertices further
     /// away (and further than the vertices' spacing) receive nothing. It limits topological bias. With a larger value
     /// long footprints follow curved surfaces further, and leak further through thin ones. [Frisvad et al. 2014, after

@@ -9,8 +9,8 @@
 #pragma once
 
 #include "nephroid/footprint/ellipse.hpp"
-#include "nephroid/smoothing/policies.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
+#include "nephroid/smoothing/second_order/policies.hpp"
 #include "nephroid/transport/deposit.hpp"
 
 #include <array>

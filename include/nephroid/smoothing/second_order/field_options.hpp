@@ -2,8 +2,8 @@
 /// @file  The options of a field of footprints, and the field's value for one photon.
 #pragma once
 
-#include "nephroid/smoothing/policies.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
+#include "nephroid/smoothing/second_order/policies.hpp"
 #include "nephroid/vector/plane.hpp"
 
 #include <array>

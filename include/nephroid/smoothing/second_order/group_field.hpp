@@ -3,12 +3,12 @@
 #pragma once
 
 #include "nephroid/smoothing/second_order/border_bounds.hpp"
-#include "nephroid/smoothing/second_order/path_groups.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
 #include "nephroid/smoothing/second_order/group_borders.hpp"
 #include "nephroid/smoothing/second_order/group_cells.hpp"
 #include "nephroid/smoothing/second_order/group_fit.hpp"
 #include "nephroid/smoothing/second_order/group_frames.hpp"
+#include "nephroid/smoothing/second_order/path_groups.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
 #include "nephroid/smoothing/second_order/varying_shape.hpp"
 

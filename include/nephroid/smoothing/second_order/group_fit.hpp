@@ -4,8 +4,8 @@
 
 #include "nephroid/smoothing/second_order/bending.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
-#include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/smoothing/second_order/group_cells.hpp"
+#include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
 
 #include <array>

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "nephroid/emission/light.hpp"
-#include "nephroid/smoothing/policies.hpp"
 #include "nephroid/smoothing/second_order/area_field.hpp"
 #include "nephroid/smoothing/second_order/footprint_field.hpp"
+#include "nephroid/smoothing/second_order/policies.hpp"
 
 #include <algorithm>
 #include <cstddef>

@@ -11,7 +11,7 @@
 /// "Smoothing"].
 #pragma once
 
-#include "nephroid/smoothing/policies.hpp"
+#include "nephroid/smoothing/second_order/policies.hpp"
 #include "nephroid/vector/plane.hpp"
 #include "nephroid/vector/scalar.hpp"
 

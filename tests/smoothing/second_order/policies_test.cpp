@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "nephroid/smoothing/policies.hpp"
+#include "nephroid/smoothing/second_order/policies.hpp"
 
 #include "support/glass_ball.hpp"
 
