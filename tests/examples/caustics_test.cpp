@@ -77,6 +77,10 @@ TEST_CASE("caustics: a sun, a ground and an environment are read, the ground wit
     CHECK(with->environment == "constant");
     CHECK(read({"a.glb", "--ground", "0.25"})->ground == 0.25);
     CHECK(read({"a.glb", "--ground=.5"})->ground == 0.5);
+    for (const char* const file : {"3d.glb", "nano.glb", "nan", "infinity.glb"}) { // which begin as numbers do
+        CHECK(read({"--ground", file})->scene == file);
+        CHECK(read({"--ground", file})->ground == 0.8);
+    }
     CHECK(read({"a.glb", "--sun=0,-1,0"})->sun->degrees == 0);
     CHECK_FALSE(read({"a.glb"})->ground.has_value());
 }

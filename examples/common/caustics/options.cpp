@@ -73,9 +73,9 @@ const Names<bool> reflections = {{"one", true}, {"any", false}};
         if (std::string_view(arguments[i]) != "--ground")
             continue;
         char* end = nullptr;
-        if (i + 1 < arguments.size())
-            (void)std::strtod(arguments[i + 1], &end);
-        if (end == nullptr || end == arguments[i + 1]) // not even the beginning of a number
+        const char* const next = i + 1 < arguments.size() ? arguments[i + 1] : "";
+        const double number = std::strtod(next, &end);
+        if (end == next || *end != '\0' || !std::isfinite(number)) // "3d.glb" and "nan" are names of files
             arguments[i] = "--ground=0.8";
     }
     return arguments;

@@ -49,6 +49,16 @@ namespace {
     return static_cast<int>(file.size());
 }
 
+[[nodiscard]] std::vector<unsigned char> bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        throw std::runtime_error("cannot read '" + path.string() + "'");
+    std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw std::runtime_error("'" + path.string() + "' is larger than 2 GB");
+    return bytes;
+}
+
 } // namespace
 
 std::size_t pixels_of_image(std::span<const unsigned char> file) {
@@ -69,11 +79,20 @@ DecodedImage decode_image(std::span<const unsigned char> file) {
     return image;
 }
 
+Decoded16 read_16_bits(const std::filesystem::path& path) {
+    const std::vector<unsigned char> bytes = bytes_of(path);
+    int width = 0, height = 0, channels = 0;
+    const std::unique_ptr<stbi_us, void (*)(void*)> samples(
+        stbi_load_16_from_memory(bytes.data(), size_of(bytes), &width, &height, &channels, 3), stbi_image_free);
+    if (!samples)
+        throw std::runtime_error("'" + path.string() + "' is no PNG that can be read: " + stbi_failure_reason());
+    Decoded16 image{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};
+    image.rgb.assign(samples.get(), samples.get() + 3 * image.width * image.height);
+    return image;
+}
+
 Samples read_hdr(const std::filesystem::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    if (!stream)
-        throw std::runtime_error("cannot read '" + path.string() + "'");
-    const std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    const std::vector<unsigned char> bytes = bytes_of(path);
     if (stbi_is_hdr_from_memory(bytes.data(), size_of(bytes)) == 0)
         throw std::runtime_error("'" + path.string() + "' is no Radiance picture (.hdr)");
     int width = 0, height = 0, channels = 0;

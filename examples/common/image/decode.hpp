@@ -18,11 +18,20 @@ struct DecodedImage {
     std::vector<std::uint8_t> rgba;
 };
 
+/// Red, green and blue, 16 bits each; row 0 at the top.
+struct Decoded16 {
+    std::size_t width = 0, height = 0;
+    std::vector<std::uint16_t> rgb;
+};
+
 /// Pixels of a PNG or JPEG in memory, from its header alone; 0 for what is neither.
 [[nodiscard]] std::size_t pixels_of_image(std::span<const unsigned char> file);
 
 /// Decodes a PNG or JPEG. Throws std::runtime_error with the reason, in a few words, for what is neither.
 [[nodiscard]] DecodedImage decode_image(std::span<const unsigned char> file);
+
+/// Reads a PNG of 8 or 16 bits per channel. Throws std::runtime_error, one line with the path and the reason.
+[[nodiscard]] Decoded16 read_16_bits(const std::filesystem::path& path);
 
 /// Reads Radiance's .hdr. Throws std::runtime_error, one line with the path and the reason.
 [[nodiscard]] Samples read_hdr(const std::filesystem::path& path);
