@@ -599,6 +599,17 @@ TEST_CASE("relaxation: a projection may turn normals with the surface") {
     CHECK_THROWS_AS(relax(again, access_to<Stored>(), {}, SerialExecutor{}, none), std::invalid_argument);
 }
 
+TEST_CASE("relaxation: an executor that leaves a task out is refused and the photons stay as they were") {
+    auto photons = random_floor(3000, 104);
+    const auto before = photons;
+    const auto leaves_out = [](std::size_t count, const auto& task) {
+        for (std::size_t i = 0; i + 1 < count; ++i)
+            task(i);
+    };
+    CHECK_THROWS_AS(relax(photons, access_to<Stored>(), {.iterations = 2}, leaves_out), std::invalid_argument);
+    CHECK(same_positions(photons, before));
+}
+
 TEST_CASE_TEMPLATE("relaxation: any number of photons in one place part", T, float, double) {
     using V = glm::vec<3, T>;
     for (const std::size_t together : {36u, 60u, 200u})

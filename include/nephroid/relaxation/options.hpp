@@ -38,7 +38,7 @@ struct RelaxationOptions {
 
     /// How many nearest photons give the density that a photon aims at, 16 to 4096. 0 for none, as in the paper: all
     /// photons then aim at the same distance from each other, which evens out a caustic with its noise. `chosen_by_map`
-    /// for the best of 75, 150, 300, 600 and 1200, by leave-one-out. See `keeping_density`.
+    /// for the best of 76, 150, 300, 600 and 1200, by leave-one-out. See `keeping_density`.
     unsigned pilot_neighbours = 0;
     static constexpr unsigned chosen_by_map = ~0u;
 

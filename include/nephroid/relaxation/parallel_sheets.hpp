@@ -6,6 +6,7 @@
 #include "nephroid/relaxation/reach_guess.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,7 +38,8 @@ template <Scalar T>
     return abs(T(0.5) * (heights[above] + heights[above - 1]));
 }
 
-/// Finds the parallel sheets among a cloud's photons, and lets the cloud know.
+/// Finds the parallel sheets among a cloud's photons, and lets the cloud know. Two of them: of three at equal distances
+/// none is told from the others.
 template <class Cloud, class E>
 void separate_sheets(Cloud& cloud, E& executor) {
     using V = typename Cloud::vector;

@@ -17,6 +17,7 @@
 /// ```
 #pragma once
 
+#include "nephroid/execution/checked_executor.hpp"
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/relaxation/options.hpp"
 #include "nephroid/relaxation/parallel_sheets.hpp"
@@ -42,8 +43,7 @@ struct Continue {
 } // namespace detail
 
 /// Relaxes photons: writes their positions, their fluxes if `options.flux_diffusion` says so, and their normals if
-/// `project` does. Nothing else of a
-/// photon changes, and the range keeps its photons in their order.
+/// `project` does. Nothing else of a photon changes, and the range keeps its photons in their order.
 ///
 /// @param photons   a random-access range of the user's photons; untouched if an exception is thrown
 /// @param access    `photon_access(…)`: a photon's position, normal and flux
@@ -65,9 +65,10 @@ template <class Photons, class Access, class E = SerialExecutor, class Project =
         using V = detail::position_t<Photons, Access>;
         using Cloud = detail::PhotonCloud<V, detail::flux_t<Photons, Access>>;
         detail::check(options, "relax");
+        detail::CheckedExecutor checked(executor);
         Cloud cloud(photons, access, options.cos_same_surface, "nephroid::relax");
-        detail::separate_sheets(cloud, executor);
-        detail::Relaxer<Cloud> relaxer(cloud, options, executor);
+        detail::separate_sheets(cloud, checked);
+        detail::Relaxer<Cloud> relaxer(cloud, options, checked);
         RelaxationReport report;
         report.photons = std::size_t(std::ranges::size(photons));
         report.feature_searches = relaxer.searches();
@@ -80,17 +81,17 @@ template <class Photons, class Access, class E = SerialExecutor, class Project =
         detail::SurfaceProjection<Cloud, Project> on_surface(cloud, project);
         const auto put_back = [&](std::size_t slot, const V& position) { return on_surface(slot, position); };
         for (bool go_on = report.photons > 0; go_on && report.iterations < options.iterations;) {
-            const double moves = relaxer.step(report.iterations, executor, put_back);
-            on_surface.turn_normals(executor);
+            const double moves = relaxer.step(report.iterations, checked, put_back);
+            on_surface.turn_normals(checked);
             report.mean_step.push_back(moves / double(report.photons));
             go_on = progress(report.iterations++);
         }
         if (report.iterations > 0)
-            cloud.write_positions(photons, access, executor);
+            cloud.write_positions(photons, access, checked);
         if constexpr (on_surface.turns_normals)
-            cloud.write_normals(photons, access, executor);
+            cloud.write_normals(photons, access, checked);
         if (report.iterations > 0 && options.flux_diffusion != FluxDiffusion::none)
-            cloud.write_fluxes(photons, access, executor);
+            cloud.write_fluxes(photons, access, checked);
         return report;
     }
 

@@ -18,6 +18,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace nephroid::detail {
@@ -124,13 +125,18 @@ private:
         const PointTree<V>& tree = cloud_->tree();
         for_each_leaf<Neighbourhood<Cloud>>(tree, executor, [&](auto& around, std::uint32_t leaf) {
             guess_reach(tree, tree.leaves()[leaf], search_count(), reach_);
+            std::optional<std::pair<std::size_t, T>> heap; // the photon searched last, which others may lie upon
             around.for_each(*cloud_, leaf, search_count(), reach_,
                             [&](std::size_t slot, std::span<Neighbour<T>> found) {
                                 reach_[slot] = found.empty() ? T(0) : sqrt(found.back().distance2);
                                 if (found.size() <= options_->neighbours)
                                     return; // no disc: the photon stays
                                 const T radius = sqrt(found[options_->neighbours].distance2);
-                                leash_.set_radius(slot, radius > T(0) ? radius : distance_to_others(*cloud_, slot));
+                                if (radius > T(0))
+                                    return leash_.set_radius(slot, radius);
+                                if (!heap || !coincide(*cloud_, heap->first, slot))
+                                    heap = {slot, distance_to_others(*cloud_, slot)};
+                                leash_.set_radius(slot, heap->second);
                             });
         });
     }

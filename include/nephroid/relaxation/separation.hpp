@@ -29,6 +29,14 @@ template <class Cloud>
     return i < j ? direction : -direction;
 }
 
+/// Whether two photons lie in one place, on one surface.
+template <class Cloud>
+[[nodiscard]] bool coincide(const Cloud& cloud, std::size_t a, std::size_t b) {
+    using V = typename Cloud::vector;
+    return length2(V(cloud.position(a) - cloud.position(b))) == typename Cloud::T(0) &&
+           length2(V(cloud.normal(a) - cloud.normal(b))) == typename Cloud::T(0);
+}
+
 /// The distance from photons that coincide to the nearest one on their surface that does not; 0 if there is none.
 template <class Cloud>
 [[nodiscard]] typename Cloud::T distance_to_others(const Cloud& cloud, std::size_t slot) {
