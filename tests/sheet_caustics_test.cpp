@@ -2,6 +2,7 @@
 #include "nephroid/sheet_caustics.hpp"
 
 #include "nephroid/emission/light/directional.hpp"
+#include "nephroid/pass/diagnose.hpp"
 #include "nephroid/vector/glm.hpp"
 
 #include <doctest/doctest.h>
@@ -14,6 +15,8 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 using namespace nephroid;
@@ -263,4 +266,44 @@ TEST_CASE("chart light: it emits the flux of its part, and tangents as a beam's 
     const float area = glm::length(glm::cross(Vec3(d[0].d_position), Vec3(d[1].d_position)));
     CHECK(std::abs(double(area) * 3.14159265 / 4 * 100 - 0.36 / 8) < 1e-3 * 0.36 / 8);
     CHECK(glm::length(Vec3(d[0].d_direction)) == 0);
+}
+
+TEST_CASE("sheets and splats: a pass that is stopped splats no further lamp") {
+    const auto disk = DirectionalLight<Vec3, float>(
+        {.direction = {0, 0, -1}, .irradiance = 1, .patch = BeamDisk<Vec3>{{0.5f, 0.5f, 1}, 0.3f}});
+    const LightSet<DirectionalLight<Vec3, float>, Plain> lamps({sun(), Plain{disk}});
+    int asked = 0;
+    PhotonPass pass{.count = 20'000};
+    pass.progress = [&](std::uint64_t) { return ++asked, false; };
+    (void)drawn([&](auto& sums) { (void)sheet_caustics(Stone(), lamps, sums, pass); });
+    CHECK(asked == 1);
+}
+
+TEST_CASE("light sheets: options out of their range are refused, and an executor that leaves a task out") {
+    const auto draw = [](const SheetOptions& options, auto&& executor) {
+        (void)drawn([&](auto& sums) { (void)light_sheets(Stone(), sun(), sums, {.count = 1000}, options, executor); });
+    };
+    SerialExecutor serial;
+    SheetOptions options;
+    options.lamp_points = 0;
+    CHECK_THROWS_WITH_AS(draw(options, serial), "nephroid::light_sheets: lamp_points is 0; it must be at least 1",
+                         std::invalid_argument);
+    options = {};
+    options.refinement.levels = 11;
+    CHECK_THROWS_AS(draw(options, serial), std::invalid_argument);
+    options = {};
+    options.tessellation.bend = std::numeric_limits<double>::quiet_NaN();
+    CHECK_THROWS_AS(draw(options, serial), std::invalid_argument);
+    const auto leaves_out = [](std::size_t count, const auto& task) {
+        for (std::size_t i = 0; i + 1 < count; ++i)
+            task(i);
+    };
+    CHECK_THROWS_AS(draw({}, leaves_out), std::invalid_argument);
+}
+
+TEST_CASE("light sheets: their account is diagnosed as that of photons is") {
+    SheetStatistics statistics;
+    (void)drawn([&](auto& sums) { statistics = light_sheets(Stone(), sun(), sums, {.count = 5000}); });
+    for (const std::string& sentence : diagnose(statistics.light))
+        CHECK(sentence.find("no photon reached") == std::string::npos);
 }

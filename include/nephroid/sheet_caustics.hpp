@@ -19,8 +19,9 @@ namespace nephroid {
 
 /// What became of the light that was drawn as sheets, and of the rest.
 struct SheetsAndSplats {
-    SheetStatistics sheets; ///< `sheets.handed_over` and `without_charts` are in none of its sums
-    Statistics splats;      ///< of the light that was traced again, from where those sheets and lamps emit it
+    SheetStatistics sheets; ///< `sheets.light` counts as splatted what was handed over (`sheets.sheets.handed_over`)
+    Statistics splats; ///< of what was handed over and lamps without charts, traced again: beside the other account,
+                       ///< not to be added to it
 };
 
 namespace detail {
@@ -64,7 +65,8 @@ template <class L>
 ///
 /// @param scene, light, sums, executor  as for `caustics`
 /// @param pass     `count` photons make sheets, about; what is handed over is traced again with as many as fall to it.
-///                 Of passes that make one picture, each has the same `count`, and `first` a multiple of it
+///                 Of passes that make one picture, each has the same `count`, and `first` a multiple of it.
+///                 `progress` is asked while that is splatted, once for each lamp's photons: no sheets are left out
 /// @param options  of the sheets
 template <class S, class L, Vector3 V, Flux F, class R, class E = SerialExecutor>
 SheetsAndSplats sheet_caustics(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
@@ -103,12 +105,17 @@ SheetsAndSplats sheet_caustics(const S& scene, const L& light, Sums<V, F, R>& su
     double total = result.sheets.without_charts;
     for (const auto& any : charts_of(light, options.lamp_points).charts)
         total += any.power;
+    bool goes_on = true;
+    const auto splat = [&](const auto& lamp, double its_power) {
+        PhotonPass its = detail::pass_for(pass, its_power, total);
+        if (pass.progress)
+            its.progress = [&](std::uint64_t done) { return goes_on = pass.progress(done); };
+        result.splats += caustics(scene, lamp, sums, its, executor);
+    };
     if (!lamps.empty())
-        result.splats +=
-            caustics(scene, LightSet<Lamp>(std::move(lamps)), sums, detail::pass_for(pass, power, total), executor);
-    if (const auto others = detail::without_charts(light))
-        result.splats +=
-            caustics(scene, *others, sums, detail::pass_for(pass, result.sheets.without_charts, total), executor);
+        splat(LightSet<Lamp>(std::move(lamps)), power);
+    if (const auto others = detail::without_charts(light); others && goes_on)
+        splat(*others, result.sheets.without_charts);
     return result;
 }
 

@@ -74,7 +74,8 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
         if (share >= least && share > 0)
             found.push_back({share, percent(share) + " of the caustic photons " + what});
     };
-    if (s.specular_events > 0 && caustic == 0)
+    const double drawn = s[Fate::splatted].flux + s[Fate::unseen].flux; // of light sheets without photons
+    if (s.specular_events > 0 && caustic == 0 && !(drawn > 0))
         found.push_back({1, "no photon reached a diffuse surface through a mirror or glass: " +
                                 percent(part_of(s[Fate::escaped].flux, s.emitted.flux)) +
                                 " of the light leaves the scene and " +
@@ -100,7 +101,8 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
 ///     std::cerr << sentence << '\n';
 /// ```
 ///
-/// @param statistics  of any pass: `caustics`, `splat_caustics`, `trace_photons`, or photons walked one by one
+/// @param statistics  of any pass: `caustics`, `splat_caustics`, `trace_photons`, `SheetStatistics::light`, or photons
+///                    walked one by one
 [[nodiscard]] inline std::vector<std::string> diagnose(const Statistics& statistics) {
     std::vector<detail::Finding> found;
     if (statistics.emitted.photons == 0)

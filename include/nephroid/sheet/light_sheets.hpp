@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/chart/charts_of.hpp"
+#include "nephroid/execution/checked_executor.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/sheet/chart_sheets.hpp"
 #include "nephroid/sheet/pilot_grid.hpp"
@@ -10,7 +11,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 namespace nephroid {
@@ -24,20 +24,24 @@ namespace nephroid {
 /// @param pass       about `count` photons are traced in all: a sixteenth as a pilot, the others as corners of cells,
 ///                   the regular ones first, then those of cells that are split. Where sheets end within cells a few
 ///                   more look for where. Of a part of a picture (`total` larger than `count`) this is a whole
-///                   picture, weighted by its part
+///                   picture, weighted by its part: each of its passes has the same `count`, and `first` a multiple
+///                   of it
 /// @param options    how finely
 /// @param executor   the sums do not depend on it, bit for bit
 /// @param take_over  take_over(chart, rectangle): called for each part of a chart whose sheets are too broken to be
 ///                   drawn, from the calling thread; none of the light that leaves there is in the sums then
+/// Throws std::invalid_argument for a pass or options that make no sense, and if the executor leaves tasks out.
 /// @return  what became of the light. Nothing is drawn of a lamp that has no charts, see `without_charts`
 template <class S, class L, Vector3 V, Flux F, class R, class E = SerialExecutor, class TakeOver = DrawBroken>
 SheetStatistics light_sheets(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
                              const SheetOptions& options = {}, E&& executor = E{}, TakeOver take_over = {}) {
     detail::check(pass, "nephroid::light_sheets");
+    detail::check(options, "nephroid::light_sheets");
+    detail::CheckedExecutor checked(executor);
     SheetStatistics statistics;
     if (sums.map().tree().empty())
         return statistics;
-    const detail::ReceiverPixels<V> pixels(sums.map(), executor);
+    const detail::ReceiverPixels<V> pixels(sums.map(), checked);
     const double total = double(pass.total == 0 ? pass.count : pass.total);
     const std::uint64_t number = pass.first / pass.count; // of a pass among equal ones
     const LampCharts<V, F> lamps = charts_of(light, options.lamp_points, std::size_t(number) * options.lamp_points);
@@ -45,7 +49,7 @@ SheetStatistics light_sheets(const S& scene, const L& light, Sums<V, F, R>& sums
     statistics.without_charts = lamps.without;
     const Refinement& refinement = options.refinement;
     const detail::PilotResult pilot =
-        detail::PilotGrid<S, V, F>(scene, pixels, refinement, pass.limits)(charts, pass.count, executor);
+        detail::PilotGrid<S, V, F>(scene, pixels, refinement, pass.limits)(charts, pass.count, checked);
     statistics.sheets.nodes += pilot.nodes;
     statistics.sheets.by_chance += pilot.by_chance;
     const double nodes = (std::max)(double(pass.count) - double(pilot.nodes), 0.0);
@@ -55,9 +59,9 @@ SheetStatistics light_sheets(const S& scene, const L& light, Sums<V, F, R>& sums
     for (const detail::Lattice& lattice : lattices)
         cells += double(lattice.cells_u * lattice.cells_v);
     for (std::size_t i = 0; i < charts.size(); ++i)
-        detail::ChartSheets<S, V, F, R, std::remove_reference_t<E>, TakeOver>(
-            scene, charts[i], sums, pixels, options, pass.limits, pilot.brightness, double(pass.count) / total,
-            executor, take_over)
+        detail::ChartSheets<S, V, F, R, decltype(checked), TakeOver>(scene, charts[i], sums, pixels, options,
+                                                                     pass.limits, pilot.brightness,
+                                                                     double(pass.count) / total, checked, take_over)
             .draw(lattices[i],
                   (1 - pilot.regular_share) * nodes * double(lattices[i].cells_u * lattices[i].cells_v) / cells,
                   statistics);

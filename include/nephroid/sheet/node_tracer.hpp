@@ -51,6 +51,10 @@ struct TracedNodes {
         account.corrected_normals += one.corrected_normals;
         if (!(area > 0))
             return;
+        account.branches += one.branches;
+        account.hits_at_start += one.hits_at_start;
+        account.opaque_first += one.opaque_first;
+        account.escaped_first += one.escaped_first;
         account.emitted.photons += one.emitted.photons;
         account.emitted.add(area * one.emitted.flux);
         for (std::size_t i = 0; i < fate_count; ++i) {

@@ -20,7 +20,8 @@ struct SheetAccount {
     Tally seen;                     ///< on sheets that reach vertices
     Tally unseen;                   ///< on sheets that reach none
     Tally cut;                      ///< of both: in cells in which a sheet ends
-    std::uint64_t broken_tiles = 0; ///< more than a third of whose light is in cells in which sheets end
+    std::uint64_t broken_tiles = 0; ///< more than a third of whose light is in cells in which sheets end; if somebody
+                                    ///< takes them over, those too whose scene drew a random number
     Tally broken;                   ///< light in those, if nobody took them over: it may be in the wrong place
     Tally handed_over;              ///< light in those that somebody took over: none of it is drawn
 

@@ -6,8 +6,12 @@
 #include "nephroid/sheet/sheet_account.hpp"
 #include "nephroid/sheet/tessellation.hpp"
 #include "nephroid/transport/account.hpp"
+#include "nephroid/vector/error.hpp"
+#include "nephroid/vector/text.hpp"
 
+#include <cmath>
 #include <cstddef>
+#include <string>
 
 namespace nephroid {
 
@@ -17,6 +21,28 @@ struct SheetOptions {
     Refinement refinement{};
     std::size_t lamp_points = 64; ///< that stand for a lamp with extent, >= 1
 };
+
+namespace detail {
+/// Throws std::invalid_argument for options out of their range.
+///
+/// @param caller  name of the calling function, for the message
+NEPHROID_NOINLINE inline void check(const SheetOptions& options, const char* caller) {
+    const auto require = [caller](bool holds, const char* name, double value, const char* rule) {
+        if (!holds)
+            invalid_argument(std::string(caller) + ": " + name + " is " + text_of(value) + "; it must be " + rule);
+    };
+    const auto is_positive = [](double x) { return x > 0 && std::isfinite(x); };
+    const Tessellation& quads = options.tessellation;
+    require(is_positive(quads.bend), "tessellation.bend", quads.bend, "positive and finite");
+    require(is_positive(quads.density), "tessellation.density", quads.density, "positive and finite");
+    require(quads.most >= 1 && quads.most <= 32, "tessellation.most", quads.most, "from 1 to 32");
+    const Refinement& cells = options.refinement;
+    require(cells.levels <= 10, "refinement.levels", cells.levels, "at most 10");
+    require(is_positive(cells.tolerance), "refinement.tolerance", cells.tolerance, "positive and finite");
+    require(is_positive(cells.relative), "refinement.relative", cells.relative, "positive and finite");
+    require(options.lamp_points >= 1, "lamp_points", double(options.lamp_points), "at least 1");
+}
+} // namespace detail
 
 /// What became of the light, and of its sheets.
 struct SheetStatistics {
