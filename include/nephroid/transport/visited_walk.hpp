@@ -50,7 +50,8 @@ private:
     static constexpr bool all_ways = follows_all_ways<Visitor>;
     static constexpr bool may_part = all_ways && ScattersAllWays<S, V>;
     static constexpr unsigned most_lamp_surfaces = 4; // of both sides of its sheets; more are the tracer's mistake
-    static constexpr unsigned most_passed = 1000; // false surfaces and edges; who finds one again and again has no end
+    static constexpr unsigned most_passed = 1000; // false surfaces; a tracer that finds one again and again has no end
+    static constexpr unsigned most_edges = 64;    // as above; a ray through a vertex meets as many triangles
     using waiting_t = typename waiting_of<S, V, F, N, trail_t<Visitor>, may_part>::type;
 
     /// To the next surface, and off it again. @return  whether the photon goes on
@@ -60,8 +61,8 @@ private:
             return steps_.end(Fate::invalid);
         ++account_.rays;
         const auto hit = steps_.next_hit();
-        if (hit && steps_.is_on_edge(*hit)) // at a vertex of many triangles, or for a scene that leaves none out, again
-            return passed_++ < most_passed || steps_.end(Fate::terminated);
+        if (hit && steps_.is_on_edge(*hit))
+            return edges_++ < most_edges || steps_.end(Fate::terminated);
         if constexpr (tells_flights) {
             const T distance = hit ? T((*hit).distance) : std::numeric_limits<T>::infinity();
             const std::optional<V> end_normal = hit ? std::optional<V>(steps_.facing_normal(*hit)) : std::nullopt;
@@ -228,7 +229,7 @@ private:
     [[no_unique_address]] std::conditional_t<tells_flights, Departure<V>, NoDeparture> departure_{};
     [[no_unique_address]] waiting_t waiting_{};
     unsigned followed_ = 0;
-    unsigned lamp_surfaces_ = 0, passed_ = 0;
+    unsigned lamp_surfaces_ = 0, passed_ = 0, edges_ = 0;
 };
 
 } // namespace nephroid::detail
