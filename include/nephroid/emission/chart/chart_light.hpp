@@ -6,10 +6,9 @@
 #include "nephroid/emission/light.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace nephroid {
