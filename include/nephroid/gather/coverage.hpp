@@ -25,8 +25,8 @@ namespace nephroid {
 /// (0, 1]; an estimate takes anything else, zero and NaN among them, as 1. Called from several threads at once.
 ///
 /// The share of the kernel's weight makes an estimate in even light right at every border. The share of the area is
-/// simpler, and right for `UniformKernel` alone; a kernel that fades has more of its weight on the surface, so the
-/// estimate becomes too bright, at a straight border beside the position by nothing.
+/// simpler, and right for `UniformKernel` alone: of a kernel that fades more lies on the surface, and the estimate
+/// becomes too bright. Only on a straight border itself both are a half.
 template <class C, class V>
 concept DiskCoverage = requires(const C coverage, const V& v, scalar_t<V> radius) {
     { coverage(v, v, radius) } -> std::convertible_to<scalar_t<V>>;
