@@ -109,8 +109,12 @@ TEST_CASE("caustics: what cannot be done is refused with a line that names the o
     for (const char* sun :
          {"", "1,2", "1,2,3,4,5", "0,0,0", "a,b,c", "1,2,nan", "1,2,3x", "1,,2", "0,-1,0,91", "0,-1,0,-1"})
         CHECK(message({"a.glb", "--sun", sun}).find(*sun == '\0' ? "--sun" : "--sun: '") != std::string::npos);
-    for (const char* albedo : {"0", "1.5", "-1", "nan", "0.5x"})
+    for (const char* albedo : {"--ground=0", "--ground=1.5", "--ground=-1", "--ground=nan", "--ground=0.5x"})
+        CHECK(message({"a.glb", albedo}).find("--ground: '") != std::string::npos);
+    for (const char* albedo : {"0", "1.5", "-1"})
         CHECK(message({"a.glb", "--ground", albedo}).find("--ground: '") != std::string::npos);
+    for (const char* second : {"nan", "0.5x"}) // no numbers, so a second scene
+        CHECK(message({"a.glb", "--ground", second}).find(second) != std::string::npos);
     CHECK(message({"a.glb", "--ground", "--sun", "0,1,0"}).find("does not go down") != std::string::npos);
     CHECK(message({"ring", "--ground"}).find("built-in") != std::string::npos);
     CHECK(message({"ring", "--sun", "0,-1,0"}).find("built-in") != std::string::npos);
