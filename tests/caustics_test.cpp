@@ -19,7 +19,8 @@
 #include <stdexcept>
 #include <string>
 
-using namespace nephroid;
+namespace nephroid::tests::caustics_test {
+
 using tests::ceiling;
 using tests::check_balance;
 using tests::image_of;
@@ -377,3 +378,5 @@ static_assert(!detail::EmitsFor<Sun, glm::vec3, double>);  // another flux
 static_assert(!Scene<int, glm::vec3, Sampler<HaltonSequence>>);
 
 } // namespace
+
+} // namespace nephroid::tests::caustics_test

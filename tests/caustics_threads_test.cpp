@@ -13,7 +13,8 @@
 #include <utility>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::caustics_threads_test {
+
 using tests::ceiling;
 using tests::check_balance;
 using tests::image_of;
@@ -98,3 +99,5 @@ TEST_CASE("caustics: other photons make another picture") {
     const auto [other, _] = render_untidy<Published>(SerialExecutor{}, {{.first = 2000, .count = 2000}});
     CHECK(other != image);
 }
+
+} // namespace nephroid::tests::caustics_threads_test

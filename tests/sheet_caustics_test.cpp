@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::sheet_caustics_test {
 
 namespace {
 
@@ -307,3 +307,5 @@ TEST_CASE("light sheets: their account is diagnosed as that of photons is") {
     for (const std::string& sentence : diagnose(statistics.light))
         CHECK(sentence.find("no photon reached") == std::string::npos);
 }
+
+} // namespace nephroid::tests::sheet_caustics_test

@@ -13,7 +13,8 @@
 #include <string>
 #include <type_traits>
 
-using namespace nephroid;
+namespace nephroid::tests::curvature_test {
+
 using tests::derivative;
 using tests::Draws;
 using tests::Space;
@@ -375,3 +376,5 @@ TEST_CASE_TEMPLATE("AnyCurvature: calls the kind that it holds", T, float, doubl
 }
 
 } // namespace
+
+} // namespace nephroid::tests::curvature_test

@@ -17,7 +17,8 @@
 #include <optional>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::finite_difference_curvature_test {
+
 using tests::Draws;
 
 namespace {
@@ -433,3 +434,5 @@ TEST_CASE("finite_difference_curvature: gives a walk through glass the tangents 
 static_assert(Curvature<FiniteDifferenceCurvature<V, Tracing>, V>);
 static_assert(RayTracer<Tracing, V>);
 static_assert(!LiesOnSurface<int> && LiesOnSurface<BareHit<V>>);
+
+} // namespace nephroid::tests::finite_difference_curvature_test

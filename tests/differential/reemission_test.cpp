@@ -11,7 +11,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::reemission_test {
+
 using tests::Draws;
 using tests::Space;
 using tests::Wide;
@@ -108,3 +109,5 @@ TEST_CASE_TEMPLATE("reemit: only the first two of more tangents span the footpri
 }
 
 } // namespace
+
+} // namespace nephroid::tests::reemission_test

@@ -11,7 +11,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::reflection_test {
+
 using tests::derivative;
 using tests::Draws;
 using tests::Space;
@@ -152,3 +153,5 @@ TEST_CASE_TEMPLATE("reflection: turning only the derivative of the normal round 
 }
 
 } // namespace
+
+} // namespace nephroid::tests::reflection_test

@@ -11,7 +11,8 @@
 #include <limits>
 #include <optional>
 
-using namespace nephroid;
+namespace nephroid::tests::refraction_test {
+
 using tests::derivative;
 using tests::Draws;
 using tests::Space;
@@ -281,3 +282,5 @@ TEST_CASE_TEMPLATE("refraction: turning only the derivative of the normal round 
 }
 
 } // namespace
+
+} // namespace nephroid::tests::refraction_test

@@ -17,7 +17,8 @@
 #include <limits>
 #include <type_traits>
 
-using namespace nephroid;
+namespace nephroid::tests::tangent_test {
+
 using tests::derivative;
 using tests::Draws;
 using tests::Space;
@@ -201,3 +202,5 @@ TEST_CASE_TEMPLATE("tangent: a ball lens focuses at n R over 2 n minus 2", T, fl
 }
 
 } // namespace
+
+} // namespace nephroid::tests::tangent_test

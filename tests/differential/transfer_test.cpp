@@ -9,7 +9,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::transfer_test {
+
 using tests::derivative;
 using tests::Draws;
 using tests::Space;
@@ -146,3 +147,5 @@ TEST_CASE_TEMPLATE("transfer: over no distance onto a plane across the ray only 
 }
 
 } // namespace
+
+} // namespace nephroid::tests::transfer_test

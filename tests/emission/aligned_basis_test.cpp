@@ -15,7 +15,7 @@
 #include <limits>
 #include <utility>
 
-using namespace nephroid;
+namespace nephroid::tests::aligned_basis_test {
 
 namespace {
 
@@ -131,3 +131,5 @@ TEST_CASE_TEMPLATE("aligned basis: both sides of the switch have the same ellips
             CHECK(std::abs(form[i] - circle[i]) <= 8 * (factor + T(0.1)) * root * radius * radius);
     }
 }
+
+} // namespace nephroid::tests::aligned_basis_test

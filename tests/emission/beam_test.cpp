@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::beam_test {
 
 namespace {
 
@@ -119,3 +119,5 @@ TEST_CASE("beam: no points and a line along the beam and a beam without directio
     CHECK_THROWS_AS((void)smallest_beam_over(down, std::vector<V>{{1, 2, 3}, {1, 2, 7}}), std::invalid_argument);
     CHECK_THROWS_AS((void)smallest_beam_over(V(0, 0, 0), std::vector<V>{{0, 0, 0}, {1, 2, 7}}), std::invalid_argument);
 }
+
+} // namespace nephroid::tests::beam_test

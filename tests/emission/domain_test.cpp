@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::domain_test {
 
 TEST_CASE("emission domain: unless told otherwise it is a square without kinks that ends at its edges") {
     constexpr EmissionDomain domain;
@@ -36,3 +36,5 @@ TEST_CASE("emission domain: the distance to a kink is that to the nearest of its
         CHECK(distance_to_kink(Kinks::diagonals, t + step * root, t - step * root) == doctest::Approx(step));
     }
 }
+
+} // namespace nephroid::tests::domain_test

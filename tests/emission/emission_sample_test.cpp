@@ -11,7 +11,8 @@
 #include <cstring>
 #include <set>
 
-using namespace nephroid;
+namespace nephroid::tests::emission_sample_test {
+
 using detail::draw_point;
 using detail::EmissionSample;
 using detail::RecordingSource;
@@ -157,3 +158,5 @@ TEST_CASE("emission sample: lights of sets within a set keep numbers of their ow
     CHECK(pairs.size() == 7);
     CHECK(numbers.size() == 7);
 }
+
+} // namespace nephroid::tests::emission_sample_test

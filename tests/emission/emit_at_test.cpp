@@ -11,7 +11,8 @@
 
 #include <cstring>
 
-using namespace nephroid;
+namespace nephroid::tests::emit_at_test {
+
 using tests::GivenSamples;
 
 namespace {
@@ -51,3 +52,5 @@ TEST_CASE("emit at: extras are drawn from their own source or lie in the middle"
     CHECK(middle.flux == doctest::Approx(0.5 * sun.power()));
     CHECK(other.flux == doctest::Approx(0.9 * sun.power()));
 }
+
+} // namespace nephroid::tests::emit_at_test

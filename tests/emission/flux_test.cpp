@@ -69,8 +69,7 @@ struct nephroid::flux_traits<Spectrum<N>> {
     static Spectrum<N> zero() { return {}; }
 };
 
-using namespace nephroid;
-
+namespace nephroid::tests::flux_test {
 namespace {
 
 static_assert(Flux<float> && Flux<double> && Flux<glm::vec3> && Flux<glm::dvec3> && Flux<Colour> && Flux<Spectrum<31>>);
@@ -126,3 +125,4 @@ TEST_CASE("flux: the power of the library's own is their value and their compone
 }
 
 } // namespace
+} // namespace nephroid::tests::flux_test

@@ -13,9 +13,9 @@
 #include <cmath>
 #include <stdexcept>
 
-using namespace nephroid;
+namespace nephroid::tests::light_set_test {
+
 using detail::RecordingSource;
-using namespace nephroid::tests;
 
 namespace {
 
@@ -63,6 +63,8 @@ static_assert(!of_laser.two && !of_laser.four && of_laser.others); // it declare
 static_assert(of_both.two && of_both.four && !of_both.others);
 static_assert(of_any.two && !of_any.four && of_any.others);
 
+namespace {
+
 /// A renderer's own lights, to which `domain` means something else.
 struct Panel : Laser {
     D domain{1, 2, 0};
@@ -70,6 +72,9 @@ struct Panel : Laser {
 struct Leased : Laser {
     static constexpr const char* domain = "example.org";
 };
+
+} // namespace
+
 static_assert(coordinates_of<Panel> == 0 && emission_domains<Panel>.others);
 static_assert(coordinates_of<Leased> == 0 && emission_domains<Leased>.others);
 static_assert(may_emit_from(of_both, 4) && !may_emit_from(of_both, 0) && may_emit_from(of_any, 0));
@@ -162,3 +167,5 @@ TEST_CASE("light set: lights of three tangents make a set, with extras or withou
         CHECK(samples.drawn() == 4); // the wavelength too
     }
 }
+
+} // namespace nephroid::tests::light_set_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-using namespace nephroid;
+namespace nephroid::tests::spread_test {
 
 // A footprint is the ellipse in the square of two tangents: π/4 length².
 TEST_CASE_TEMPLATE("spread: the footprints' areas add up to the squared smoothing times the domain", T, float, double) {
@@ -28,3 +28,5 @@ TEST_CASE_TEMPLATE("spread: the footprints' areas add up to the squared smoothin
 TEST_CASE("spread: photons of a domain without extent have no footprint") {
     CHECK(Spread<float>{100, 5}.length(0) == 0);
 }
+
+} // namespace nephroid::tests::spread_test

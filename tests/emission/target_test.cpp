@@ -14,7 +14,7 @@
 #include <type_traits>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::target_test {
 
 namespace {
 
@@ -122,3 +122,5 @@ TEST_CASE("target: from inside and from the surface every direction leads to it"
     CHECK(cone_towards(sphere, {1, 2, 3}).solid_angle() == doctest::Approx(4 * pi<double>));
     CHECK_FALSE(cone_towards(sphere, {1, 2, 5.01f}).is_everything());
 }
+
+} // namespace nephroid::tests::target_test

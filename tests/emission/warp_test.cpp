@@ -18,7 +18,7 @@
 #include <numbers>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::warp_test {
 
 namespace {
 
@@ -196,3 +196,5 @@ TEST_CASE_TEMPLATE("warp: the narrowest cone keeps its shape", T, float, double)
         CHECK(rim.y == 0);
     }
 }
+
+} // namespace nephroid::tests::warp_test

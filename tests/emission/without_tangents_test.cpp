@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::without_tangents_test {
 
 namespace {
 using Lamp = PointLight<glm::vec3, float>;
@@ -34,3 +34,5 @@ TEST_CASE("without tangents: photons are the light's own but for the differentia
         CHECK(one.dimension() == other.dimension());
     }
 }
+
+} // namespace nephroid::tests::without_tangents_test

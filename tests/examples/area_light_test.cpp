@@ -19,8 +19,8 @@
 #include <optional>
 #include <vector>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::area_light_test {
+
 using tests::is_sanitized;
 
 namespace {
@@ -78,3 +78,5 @@ TEST_CASE("second order: an area light's footprints need no smoothing and beat t
     check(HaltonSequence(), {10, 12, 14, 16});
     check(RandomSequence(), {14, 16, 18, 20});
 }
+
+} // namespace nephroid::examples::area_light_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::assume_test {
 
 namespace {
 
@@ -118,3 +118,5 @@ TEST_CASE("assume: the camera is to show what is specular and where its light fa
     CHECK(points[0].x == doctest::Approx(-1.4f).epsilon(0.01));
     CHECK(points[1].z == doctest::Approx(1.2f).epsilon(0.01));
 }
+
+} // namespace nephroid::examples::assume_test

@@ -11,7 +11,8 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::bvh_test {
+
 using namespace nephroid::examples::testing;
 
 namespace {
@@ -221,3 +222,5 @@ TEST_CASE("bvh: a visitor ends the search by a distance below the ray's first") 
     });
     CHECK(visits == 1);
 }
+
+} // namespace nephroid::examples::bvh_test

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::camera_test {
 
 namespace {
 
@@ -98,3 +98,5 @@ TEST_CASE_TEMPLATE("camera: a pixel's samples lie in the cells of a grid and dif
         CHECK(cells.size() == n);
     }
 }
+
+} // namespace nephroid::examples::camera_test

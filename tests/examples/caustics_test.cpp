@@ -12,8 +12,8 @@
 #include <initializer_list>
 #include <vector>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::caustics_test {
+
 using namespace nephroid::tests;
 
 namespace {
@@ -221,3 +221,5 @@ TEST_CASE("caustics: files without anything specular are refused by name") {
     CHECK(message(caustic_scene(TestLight::none)) == "accepted"); // and lit by a sun
     CHECK(message(caustic_scene(TestLight::sun, TestSphere::diffuse)).find("no specular surface") != std::string::npos);
 }
+
+} // namespace nephroid::examples::caustics_test

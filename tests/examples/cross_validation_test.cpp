@@ -21,8 +21,8 @@
 #include <cstdint>
 #include <vector>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::cross_validation_test {
+
 using tests::is_sanitized;
 
 namespace {
@@ -144,3 +144,5 @@ TEST_CASE("cross-validation: of the ring it chooses nearly the best smoothing" *
     check(subject, 5000, RandomSequence(1), flat);
     check(subject, 20000, RandomSequence(1), sharp);
 }
+
+} // namespace nephroid::examples::cross_validation_test

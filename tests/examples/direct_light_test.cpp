@@ -17,7 +17,8 @@
 #include <utility>
 #include <vector>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::direct_light_test {
+
 using namespace nephroid::examples::testing;
 
 namespace {
@@ -195,3 +196,5 @@ TEST_CASE_TEMPLATE("lamps: photons leave their emitter and start in front of all
     const Scene<T> matt({{Floor<T>(0), 0}}, materials);
     CHECK_THROWS_AS(static_cast<void>(photon_lights(sun, matt)), std::invalid_argument);
 }
+
+} // namespace nephroid::examples::direct_light_test

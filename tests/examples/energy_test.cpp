@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::energy_test {
+
 using nephroid::tests::is_sanitized;
 
 namespace {
@@ -155,3 +155,5 @@ TEST_CASE("energy: the table of all cases, smoothings, photons and films" * doct
                 }
     std::printf("worst with the pixel filter: %.4f%%\n", 100 * worst);
 }
+
+} // namespace nephroid::examples::energy_test

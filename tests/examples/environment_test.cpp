@@ -12,8 +12,8 @@
 #include <memory>
 #include <stdexcept>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::environment_test {
+
 using nephroid::tests::check_light_laws;
 using nephroid::tests::check_same;
 using nephroid::tests::flux_of;
@@ -190,3 +190,5 @@ TEST_CASE(
     const double exact = over_the_sphere([&](const V& d) { return d.z > 0 ? d.z * picture->radiance(d) : 0; });
     CHECK(irradiance(open, {0, 0, 0}, picture) == doctest::Approx(exact).epsilon(0.02));
 }
+
+} // namespace nephroid::examples::environment_test

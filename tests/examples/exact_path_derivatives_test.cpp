@@ -20,9 +20,9 @@
 #include <cstdint>
 #include <optional>
 
-using namespace nephroid;
+namespace nephroid::examples::exact_path_derivatives_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::examples;
 using tests::Space;
 using tests::Wide;
 using tests::WideRay;
@@ -178,3 +178,5 @@ TEST_CASE("exact path derivatives: through the examples' sphere they are those o
           scene, end);
 }
 #endif
+
+} // namespace nephroid::examples::exact_path_derivatives_test

@@ -14,7 +14,8 @@
 #include <utility>
 #include <vector>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::eye_paths_test {
+
 using namespace nephroid::examples::testing;
 using nephroid::SerialExecutor;
 using nephroid::ThreadExecutor;
@@ -190,3 +191,5 @@ TEST_CASE_TEMPLATE("eye paths: glass between white walls keeps nearly all weight
         CHECK(weight > 1 - T(1e-3));
     }
 }
+
+} // namespace nephroid::examples::eye_paths_test

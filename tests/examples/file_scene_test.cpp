@@ -11,7 +11,8 @@
 #include <numbers>
 #include <vector>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::file_scene_test {
+
 using namespace nephroid::tests;
 
 namespace {
@@ -172,3 +173,5 @@ TEST_CASE("file scene: a file of glass alone renders something, and says what it
         in_the_sun += std::abs(double(sample) - 0.8 * 1 / std::hypot(0.5, 1, 0.35)) < 0.01;
     CHECK(in_the_sun > rendering.picture.samples.size() / 4);
 }
+
+} // namespace nephroid::examples::file_scene_test

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::fresnel_test {
 
 namespace {
 template <class T>
@@ -78,3 +78,5 @@ TEST_CASE_TEMPLATE("fresnel: gold reflects at every angle as the real-valued for
         CHECK(std::abs(conductor_reflectance<T>(c, n, k) - (s + p) / 2) < 100 * rounding<T>);
     }
 }
+
+} // namespace nephroid::examples::fresnel_test

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+namespace nephroid::examples::gltf_fault_test {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -285,3 +287,5 @@ TEST_CASE("glTF: a file with any one byte changed is read or refused in one line
         }
     }
 }
+
+} // namespace nephroid::examples::gltf_fault_test

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+namespace nephroid::examples::gltf_placing_test {
+
 namespace {
 
 using nephroid::examples::MeshDescription;
@@ -136,3 +138,5 @@ TEST_CASE("glTF: a mesh is closed where every edge has two sides, also if its ve
     std::swap(turned.triangles[40][0], turned.triangles[40][1]);
     CHECK_FALSE(enclosure_of(turned).is_closed);
 }
+
+} // namespace nephroid::examples::gltf_placing_test

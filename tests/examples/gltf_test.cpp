@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+namespace nephroid::examples::gltf_test {
+
 namespace {
 
 using nephroid::examples::CameraDescription;
@@ -436,3 +438,5 @@ TEST_CASE("glTF: the caustic scene of the tests is what its description says") {
     CHECK(distance(quad.meshes[2].normals.at(0), {0, -1, 0}) < few_roundings);
     CHECK(parse(caustic_scene(TestLight::none, TestSphere::diffuse)).lights.empty());
 }
+
+} // namespace nephroid::examples::gltf_test

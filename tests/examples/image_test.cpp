@@ -66,7 +66,8 @@
 #pragma warning(pop)
 #endif
 
-using namespace nephroid::examples;
+namespace nephroid::examples::image_test {
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -461,3 +462,5 @@ TEST_CASE("write_file: a file or folder without permission to write is refused a
 }
 
 #endif
+
+} // namespace nephroid::examples::image_test

@@ -13,7 +13,8 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::mesh_test {
+
 using namespace nephroid::examples::testing;
 using nephroid::cross;
 using nephroid::dot;
@@ -331,3 +332,5 @@ TEST_CASE_TEMPLATE("mesh: what is not a mesh is refused", T, float, double) {
     bad.materials.assign(1, 0);
     CHECK_THROWS_AS(TriangleMesh<T>{bad}, std::invalid_argument);
 }
+
+} // namespace nephroid::examples::mesh_test

@@ -14,7 +14,8 @@
 #include <cmath>
 #include <numbers>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::mixture_test {
+
 using nephroid::Event;
 using nephroid::HaltonSequence;
 using nephroid::examples::testing::ListSampler;
@@ -162,3 +163,5 @@ TEST_CASE("mixtures: the diffuse part is as bright by direct light as by the pho
     const auto picture = direct_layer(scene, lamps, eye, {}, serial);
     CHECK(picture[0] == doctest::Approx(0.25 * 0.8 / std::numbers::pi)); // the table gets its light as a caustic
 }
+
+} // namespace nephroid::examples::mixture_test

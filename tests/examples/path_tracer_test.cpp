@@ -22,8 +22,8 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::path_tracer_test {
+
 namespace exact = nephroid::reference;
 
 namespace {
@@ -481,3 +481,5 @@ TEST_CASE("path tracer: the disk's photons bring the mirror all the light that p
     CHECK(flux == doctest::Approx(landed).epsilon(1e-3));
     CHECK(reached < 2); // nothing lands beside the film of the sums
 }
+
+} // namespace nephroid::examples::path_tracer_test

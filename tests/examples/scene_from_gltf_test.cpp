@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::scene_from_gltf_test {
 
 namespace {
 
@@ -232,3 +232,5 @@ TEST_CASE("scene from gltf: without a camera the whole scene is in view") {
         CHECK(nearest < 0.3f); // a pixel is about 0.25 wide there
     }
 }
+
+} // namespace nephroid::examples::scene_from_gltf_test

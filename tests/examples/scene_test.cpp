@@ -17,7 +17,8 @@
 #include <utility>
 #include <vector>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::scene_test {
+
 using namespace nephroid::examples::testing;
 using nephroid::Event;
 using nephroid::Fate;
@@ -252,3 +253,5 @@ TEST_CASE_TEMPLATE("builtin cases: the light on the floor is what it should be",
     CHECK(on_floor("ball-point", true) < 0.9 * cone);
     CHECK(!builtin_case<T>("teapot", false));
 }
+
+} // namespace nephroid::examples::scene_test

@@ -20,8 +20,8 @@
 #include <string_view>
 #include <vector>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::second_order_test {
+
 using tests::is_sanitized;
 
 namespace {
@@ -148,3 +148,5 @@ TEST_CASE("second order: with random photons the noise is that of larger footpri
     CHECK(quality_of("wave-focused", RandomSequence()).relative <= 0.37);
     CHECK(quality_of("ring-zoom", RandomSequence()).relative <= 0.35);
 }
+
+} // namespace nephroid::examples::second_order_test

@@ -13,7 +13,8 @@
 #include <numbers>
 #include <vector>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::shapes_test {
+
 using namespace nephroid::examples::testing;
 using nephroid::dot;
 
@@ -327,3 +328,5 @@ TEST_CASE_TEMPLATE("wave: without amplitude it is a plane", T, float, double) {
     CHECK(wave.hit(ray, *found).geometric_normal == Vec3<T>(0, 0, 1));
     CHECK(!wave.nearest({{0, 0, 3}, {1, 0, 0}}, infinity));
 }
+
+} // namespace nephroid::examples::shapes_test

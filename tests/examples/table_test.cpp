@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string>
 
-using namespace nephroid::examples;
+namespace nephroid::examples::table_test {
 
 namespace {
 
@@ -57,3 +57,5 @@ TEST_CASE("table: HTML reads nothing in a cell as markup") {
     CHECK(html_of(table).find("<td>a &lt; b</td>") != std::string::npos);
     CHECK(escaped_for_html("\"&>") == "&quot;&amp;&gt;");
 }
+
+} // namespace nephroid::examples::table_test

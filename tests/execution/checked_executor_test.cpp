@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::checked_executor_test {
 
 namespace {
 
@@ -61,3 +61,5 @@ TEST_CASE("checked executor: phases are passed on") {
     detail::announce(checked, Phase::trace);
     CHECK(listener.begun == 1);
 }
+
+} // namespace nephroid::tests::checked_executor_test

@@ -9,7 +9,7 @@
 
 #include <algorithm>
 
-using namespace nephroid;
+namespace nephroid::tests::counting_sort_test {
 
 namespace {
 
@@ -89,3 +89,5 @@ TEST_CASE("counting sort: sorts again, larger, smaller and nothing") {
     CHECK(order.items().empty());
     CHECK(order.items_of(7).empty());
 }
+
+} // namespace nephroid::tests::counting_sort_test

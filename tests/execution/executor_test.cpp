@@ -5,7 +5,7 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::executor_test {
 
 namespace {
 
@@ -44,3 +44,5 @@ TEST_CASE("executors: indices in groups are each met once and few wake nobody") 
         CHECK(calls == (count > 10 ? 1 : 0));
     }
 }
+
+} // namespace nephroid::tests::executor_test

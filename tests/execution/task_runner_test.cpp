@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::task_runner_test {
 
 namespace {
 
@@ -74,3 +74,5 @@ TEST_CASE("task runner: passes phases on") {
     detail::announce(runner, Phase::fit);
     CHECK(executor.phases == std::vector<Phase>{Phase::trace, Phase::fit});
 }
+
+} // namespace nephroid::tests::task_runner_test

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::thread_executor_test {
 
 namespace {
 
@@ -124,3 +124,5 @@ TEST_CASE("thread executor: lives and dies without work") {
     for (int i = 0; i < 20; ++i)
         ThreadExecutor executor(3);
 }
+
+} // namespace nephroid::tests::thread_executor_test

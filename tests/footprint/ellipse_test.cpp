@@ -11,7 +11,8 @@
 #include <numbers>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::ellipse_test {
+
 using tests::Draws;
 using tests::Space;
 using tests::Wide;
@@ -424,3 +425,5 @@ TEST_CASE_TEMPLATE("footprint: a third tangent of zero leaves even a needle as i
         CHECK(double(line.minor) <= 8 * epsilon<T>); // what was rounded out of the plane
     }
 }
+
+} // namespace nephroid::tests::ellipse_test

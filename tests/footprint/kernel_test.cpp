@@ -3,7 +3,8 @@
 
 #include <string>
 
-using namespace nephroid;
+namespace nephroid::tests::kernel_test {
+
 using detail::HasSecondMoment;
 
 namespace {
@@ -94,3 +95,5 @@ TEST_CASE("kernels: derivatives inside the disk are those of the formulas") {
     // The default's slope reaches zero at the edge, so that a splat has no rim: from outside it is zero as well.
     CHECK(std::abs(slope(BiweightKernel{}, 1.0)) < 2 * h);
 }
+
+} // namespace nephroid::tests::kernel_test

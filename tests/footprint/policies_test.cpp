@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::policies_test {
 
 namespace {
 
@@ -121,3 +121,5 @@ TEST_CASE_TEMPLATE("BoundMajorRadius: there is no bound if the map has no extent
     CHECK(BoundMajorRadius{}(e, T(0)) == Verdict::kept);
     check_radii(e, T(50), T(0.5));
 }
+
+} // namespace nephroid::tests::policies_test

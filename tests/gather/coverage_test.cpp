@@ -10,7 +10,8 @@
 
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::coverage_test {
+
 using tests::map_of_stored;
 
 namespace {
@@ -75,3 +76,5 @@ TEST_CASE("coverage: a share that cannot be is taken as one") {
     const auto half = [](const V&, const V&, double) { return 0.5; };
     CHECK(FixedRange(map, {.range = 0.1}, BiweightKernel{}, half)(V(0.5, 0.5, 0), up) == 2 * bare(V(0.5, 0.5, 0), up));
 }
+
+} // namespace nephroid::tests::coverage_test

@@ -5,7 +5,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::differential_checking_test {
+
 using tests::complaint_of;
 
 namespace {
@@ -144,3 +145,5 @@ TEST_CASE("differential checking: says which option cannot be") {
     CHECK(complaint({.significance = 0}).starts_with("renderer: checking.significance is 0"));
     CHECK(complaint({.resolution = -1}).starts_with("renderer: checking.resolution is -1"));
 }
+
+} // namespace nephroid::tests::differential_checking_test

@@ -11,7 +11,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::differential_map_test {
+
 using tests::Draws;
 using tests::Received;
 using tests::Vertex;
@@ -174,3 +175,5 @@ TEST_CASE("differential map: is the same bit for bit for any number of threads")
     }
     CHECK(images[0] == images[1]);
 }
+
+} // namespace nephroid::tests::differential_map_test

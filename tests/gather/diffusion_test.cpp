@@ -9,7 +9,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::diffusion_test {
+
 using tests::complaint_of;
 using tests::Draws;
 using tests::map_of_stored;
@@ -245,3 +246,5 @@ TEST_CASE("diffusion: says which option cannot be") {
     CHECK(complaint({.range = 1, .diffusivity = 0}).find("diffusivity is 0") != std::string::npos);
     CHECK(complaint({.range = 1, .least_ratio = 2}).find("least_ratio is 2") != std::string::npos);
 }
+
+} // namespace nephroid::tests::diffusion_test

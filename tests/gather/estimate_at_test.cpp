@@ -8,7 +8,8 @@
 
 #include <deque>
 
-using namespace nephroid;
+namespace nephroid::tests::estimate_at_test {
+
 using tests::Vertex;
 
 namespace {
@@ -50,3 +51,5 @@ TEST_CASE("estimate at: without vertices does nothing") {
         [](const glm::dvec3&, const glm::dvec3&) { return 1.0; }, SerialExecutor{},
         [](std::size_t, double) { FAIL("there is none"); });
 }
+
+} // namespace nephroid::tests::estimate_at_test

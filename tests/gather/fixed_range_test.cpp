@@ -6,7 +6,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::fixed_range_test {
+
 using tests::complaint_of;
 using tests::Draws;
 using tests::map_of_stored;
@@ -106,3 +107,5 @@ TEST_CASE("fixed range: says which option cannot be") {
     CHECK(complaint({.range = std::numeric_limits<double>::infinity()}).find("range is inf") != std::string::npos);
     CHECK(complaint({.range = 1, .normal_distance = 0}).find("normal_distance is 0") != std::string::npos);
 }
+
+} // namespace nephroid::tests::fixed_range_test

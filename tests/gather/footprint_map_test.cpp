@@ -8,7 +8,8 @@
 
 #include <stdexcept>
 
-using namespace nephroid;
+namespace nephroid::tests::footprint_map_test {
+
 using nephroid::detail::FootprintMap;
 using tests::Draws;
 
@@ -140,3 +141,5 @@ TEST_CASE("footprint map: says which box is not finite") {
     CHECK(complaint({nan, 0, 0}, 1).find("finite") != std::string::npos);
     CHECK(complaint({0, 0, 0}, 1) == "none");
 }
+
+} // namespace nephroid::tests::footprint_map_test

@@ -8,7 +8,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::nearest_photons_test {
+
 using tests::complaint_of;
 using tests::Draws;
 using tests::map_of_stored;
@@ -278,3 +279,5 @@ TEST_CASE("nearest photons: says which option cannot be") {
           std::string::npos);
     CHECK(complaint({}) == "none");
 }
+
+} // namespace nephroid::tests::nearest_photons_test

@@ -8,7 +8,8 @@
 
 #include <deque>
 
-using namespace nephroid;
+namespace nephroid::tests::photon_map_test {
+
 using tests::complaint_of;
 using tests::map_of_stored;
 using tests::Stored;
@@ -96,3 +97,5 @@ TEST_CASE("photon map: says which photon cannot be") {
     names({infinity, {0, 0, 0}, up, -up}, "inf");
     CHECK(with({1, {0, 0, 0}, up, -up}) == "none");
 }
+
+} // namespace nephroid::tests::photon_map_test

@@ -16,7 +16,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::progressive_test {
+
 using tests::complaint_of;
 using tests::map_of_stored;
 using tests::Stored;
@@ -226,3 +227,5 @@ TEST_CASE("progressive: says which option cannot be") {
     CHECK(complaint_of([] { return ShrinkingRadius({.radius = -1}); }).find("radius is -1") != std::string::npos);
     CHECK(complaint_of([] { return ShrinkingRadius({.radius = 1e-200}); }).find("whose square") != std::string::npos);
 }
+
+} // namespace nephroid::tests::progressive_test

@@ -13,7 +13,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::trace_photons_test {
+
 using tests::check_balance;
 using tests::complaint_of;
 using tests::Vec;
@@ -162,3 +163,5 @@ TEST_CASE("trace photons: says which number cannot be") {
     CHECK(complaint({.count = 10, .smoothing = 0}).starts_with("nephroid::trace_photons: smoothing is 0"));
     CHECK(complaint({.count = 10}) == "none");
 }
+
+} // namespace nephroid::tests::trace_photons_test

@@ -13,9 +13,9 @@
 #include <limits>
 #include <vector>
 
-namespace {
+namespace nephroid::tests::divergence_test {
 
-using namespace nephroid;
+namespace {
 
 template <class T>
 using Vec = glm::vec<3, T>;
@@ -188,3 +188,5 @@ TEST_CASE_TEMPLATE("divergence: infinity and NaN are known by their bits with an
     for (const T x : {T(0), T(-1), std::numeric_limits<T>::max(), std::numeric_limits<T>::denorm_min()})
         CHECK(isfinite(x));
 }
+
+} // namespace nephroid::tests::divergence_test

@@ -14,10 +14,9 @@
 #include <cmath>
 #include <limits>
 
-namespace {
+namespace nephroid::tests::footprint_range_test {
 
-using namespace nephroid;
-using namespace nephroid::tests;
+namespace {
 
 template <class T>
 using Vec = glm::vec<3, T>;
@@ -214,3 +213,5 @@ TEST_CASE_TEMPLATE("needle triangles: the normal changes as its interpolation do
         }
     }
 }
+
+} // namespace nephroid::tests::footprint_range_test

@@ -18,9 +18,9 @@
 #include <string>
 #include <vector>
 
+namespace nephroid::tests::random_scene_test {
 namespace {
 
-using namespace nephroid;
 constexpr int photons_per_world = 1000;
 
 using examples::Follow;
@@ -378,4 +378,5 @@ TEST_CASE_TEMPLATE("random scenes: every splat is finite and the whole pass bala
     CHECK(bounded > 0);
 }
 
+} // namespace nephroid::tests::random_scene_test
 #endif

@@ -17,9 +17,10 @@
 #include "common/scene.hpp"
 #endif
 
+namespace nephroid::tests::self_intersection_test {
+
 namespace {
 
-using namespace nephroid;
 using namespace nephroid::examples::numerics;
 
 template <class T>
@@ -393,3 +394,5 @@ TEST_CASE_TEMPLATE("self-intersection: a plain tracer with the library's roundin
         CHECK(again == 0);
     }
 }
+
+} // namespace nephroid::tests::self_intersection_test

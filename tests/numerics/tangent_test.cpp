@@ -13,9 +13,10 @@
 #include <limits>
 #include <string>
 
+namespace nephroid::tests::tangent_test {
+
 namespace {
 
-using namespace nephroid;
 using namespace nephroid::examples::numerics;
 
 constexpr bool has_quadruple = Wide::digits >= 113;
@@ -248,3 +249,5 @@ TEST_CASE_TEMPLATE("footprints: those that diverge are bounded and counted and n
     CHECK((bounded >= 20 || !has_quadruple));
     CHECK((kept >= 20 || !has_quadruple));
 }
+
+} // namespace nephroid::tests::tangent_test

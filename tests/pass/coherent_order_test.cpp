@@ -16,12 +16,13 @@
 #include <limits>
 #include <numeric>
 
-using namespace nephroid;
-using detail::CoherentOrder;
-using detail::EmissionSample;
-using detail::KeyedPhoton;
-using detail::RecordingSource;
-using detail::z_curve_key;
+namespace nephroid::tests::coherent_order_test {
+
+using nephroid::detail::CoherentOrder;
+using nephroid::detail::EmissionSample;
+using nephroid::detail::KeyedPhoton;
+using nephroid::detail::RecordingSource;
+using nephroid::detail::z_curve_key;
 
 namespace {
 
@@ -182,3 +183,5 @@ TEST_CASE("coherent order: several threads find the same order") {
         }));
     }
 }
+
+} // namespace nephroid::tests::coherent_order_test

@@ -11,7 +11,8 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::diagnose_test {
+
 using tests::SheetScene;
 
 namespace {
@@ -173,10 +174,10 @@ TEST_CASE("diagnose: what happens to caustic photons at their end") {
 }
 
 TEST_CASE("diagnose: the worst comes first, and small shares have their decimals") {
-    CHECK(detail::percent(0.97) == "97%");
-    CHECK(detail::percent(1.0) == "100%");
-    CHECK(detail::percent(0.003) == "0.3%");
-    CHECK(detail::percent(1e-6) == "less than 0.1%");
+    CHECK(nephroid::detail::percent(0.97) == "97%");
+    CHECK(nephroid::detail::percent(1.0) == "100%");
+    CHECK(nephroid::detail::percent(0.003) == "0.3%");
+    CHECK(nephroid::detail::percent(1e-6) == "less than 0.1%");
     Statistics account = fates_of(good_scene(), sun());
     account.opaque_first = 500;
     account.fates[std::size_t(Fate::invalid)].photons = 20;
@@ -191,3 +192,5 @@ TEST_CASE("photons to emit: the search ends early where no photon meets a mirror
     CHECK(photons_to_emit(scene, sun(), 1000) == 0);
     CHECK(scene.rays == 262'144);
 }
+
+} // namespace nephroid::tests::diagnose_test

@@ -10,7 +10,7 @@
 
 #include <stdexcept>
 
-using namespace nephroid;
+namespace nephroid::tests::traced_batch_test {
 
 namespace {
 
@@ -80,3 +80,5 @@ TEST_CASE("traced batch: an exception from a thread reaches the caller and the n
     CHECK(account.emitted.photons == 400);
     CHECK(batch[899].number == 3 * 899 + 1);
 }
+
+} // namespace nephroid::tests::traced_batch_test

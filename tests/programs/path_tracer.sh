@@ -8,11 +8,11 @@ tracer=$1/reference_path_tracer
 . "$(dirname "$0")/shared"
 
 columns=24 rows=20
-! is_sanitized || columns=6 rows=5
+! is_sanitized || columns=4 rows=3
 for threads in 1 3; do
     "$tracer" ring-disk --size ${columns}x$rows --samples 64 --threads $threads --output mean$threads.pfm \
         --standard-error se$threads.pfm >out.txt 2>errors.txt || fail "ring-disk: $(cat errors.txt)"
-    [ ! -s errors.txt ] || fail "ring-disk: $(cat errors.txt)"
+    ! grep -v " paths a pixel, " errors.txt || fail "ring-disk: $(cat errors.txt)" # which slow machines are told meanwhile
     grep -q "64 paths a pixel" out.txt || fail "does not say how many paths: $(cat out.txt)"
 done
 cmp mean1.pfm mean3.pfm && cmp se1.pfm se3.pfm || fail "the picture depends on the number of threads"

@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::error_test {
 
 static_assert(Pixels<std::vector<float>> && Pixels<std::span<const double>> && Pixels<std::array<float, 4>>);
 static_assert(!Pixels<std::vector<int>> && !Pixels<std::list<float>> && !Pixels<float>);
@@ -95,3 +95,5 @@ TEST_CASE("error measures: a wrong call is refused with the value that is wrong"
                          "nephroid::energy_error: the reference's mean is -2.000000, it must be positive",
                          std::invalid_argument);
 }
+
+} // namespace nephroid::tests::error_test

@@ -10,7 +10,8 @@
 #include <cstring>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::exponential_sums_test {
+
 using namespace nephroid::detail;
 
 namespace {
@@ -74,3 +75,5 @@ TEST_CASE("trigonometric_sums: of no points are zero and at frequency zero they 
     const std::vector<WeightedPoint> points = {{0.25, 0.5, 2}, {0.75, 0.125, 0.5}};
     CHECK(trigonometric_sums(points, 0).front().cc == 2.5);
 }
+
+} // namespace nephroid::tests::exponential_sums_test

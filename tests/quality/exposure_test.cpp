@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::exposure_test {
 
 TEST_CASE("picture_exposure: shows the median of the lit pixels at one half") {
     CHECK(picture_exposure(std::array<float, 5>{0, 8, 2, 0, 1000}) == 0.5 / 8);  // lit: 2, 8, 1000
@@ -75,3 +75,5 @@ TEST_CASE("picture_error: a wrong call is refused with the value that is wrong")
     CHECK_THROWS_WITH_AS((void)picture_exposure(std::vector<float>{}),
                          "nephroid::picture_exposure: reference has no pixels", std::invalid_argument);
 }
+
+} // namespace nephroid::tests::exposure_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::spectrum_test {
 
 namespace {
 
@@ -206,3 +206,5 @@ TEST_CASE("PowerSpectrum: a wrong call is refused with the value that is wrong")
     CHECK(std::isnan(spectrum.band_power(0, 4)));
     CHECK(std::isnan(spectrum.band_power(0, 0.5)));
 }
+
+} // namespace nephroid::tests::spectrum_test

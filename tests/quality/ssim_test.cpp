@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::ssim_test {
 
 namespace {
 
@@ -179,3 +179,5 @@ TEST_CASE("ssim: a wrong call is refused with the value that is wrong") {
     CHECK_THROWS_WITH_AS((void)ssim(undefined, other, 11, 11),
                          "nephroid::ssim: image pixel 60 is nan, every pixel must be finite", std::invalid_argument);
 }
+
+} // namespace nephroid::tests::ssim_test

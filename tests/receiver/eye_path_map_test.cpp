@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::eye_path_map_test {
 
 namespace {
 
@@ -267,3 +267,5 @@ TEST_CASE_TEMPLATE("eye path map: no vertex lies outside its leaf even far from 
     }
     CHECK(outside == 0);
 }
+
+} // namespace nephroid::tests::eye_path_map_test

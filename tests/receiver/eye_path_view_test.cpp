@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::eye_path_view_test {
 
 namespace {
 
@@ -223,3 +223,5 @@ TEST_CASE("eye path map: the message names the vertex with an invalid footprint"
               return EyePathMap(vertices, &Vertex<V>::position, &Vertex<V>::normal, few);
           }).find("99 pixel footprints for 100 vertices") != std::string::npos);
 }
+
+} // namespace nephroid::tests::eye_path_view_test

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-using namespace nephroid;
+namespace nephroid::tests::footprints_from_film_test {
 
 namespace {
 
@@ -168,3 +168,5 @@ TEST_CASE("footprints from film: the message names the vertex that is not on the
         CHECK(std::string(error.what()).starts_with("nephroid::footprints_from_film: vertex 1 is in pixel 3072"));
     }
 }
+
+} // namespace nephroid::tests::footprints_from_film_test

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::leaf_spacing_test {
 
 TEST_CASE("leaf spacing: unknown spacings become the median of the others") {
     std::vector<double> spacings{0, 3, 1, 0, 2};
@@ -15,3 +15,5 @@ TEST_CASE("leaf spacing: unknown spacings become the median of the others") {
     detail::fill_unknown_spacings(unknown);
     CHECK(unknown == std::vector<double>{0, 0});
 }
+
+} // namespace nephroid::tests::leaf_spacing_test

@@ -9,7 +9,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::pixel_footprint_test {
+
 using tests::Space;
 using tests::Wide;
 
@@ -109,3 +110,5 @@ TEST_CASE("pixel footprint: it is unknown if a ray passes the horizon") {
                                            ray(0, -0.02f), ray(0, 0));
     CHECK(detail::is_unknown(along));
 }
+
+} // namespace nephroid::tests::pixel_footprint_test

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::sink_test {
 
 namespace {
 
@@ -33,3 +33,5 @@ TEST_CASE("sink: a film takes a value for each vertex") {
     film(1, 2.5f);
     CHECK(film.pixels[1] == 2.5f);
 }
+
+} // namespace nephroid::tests::sink_test

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <numbers>
 
-using namespace nephroid;
+namespace nephroid::tests::spacing_test {
+
 using detail::point_spacing;
 using tests::Draws;
 using tests::Space;
@@ -137,3 +138,5 @@ TEST_CASE_TEMPLATE("point spacing: coincident points have spacing zero and dupli
             twice.add({double(i % 6), double(i / 6), 0});
     CHECK(twice.spacing() == 1);
 }
+
+} // namespace nephroid::tests::spacing_test

@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::detect_features_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 namespace {
 
@@ -188,3 +188,5 @@ TEST_CASE("features: few photons and photons in one place have none") {
     for (const auto& constraint : detect_features(random_floor(10, 69), access_to<Stored>(), {}, SerialExecutor{}))
         CHECK(constraint.weight == 0);
 }
+
+} // namespace nephroid::tests::detect_features_test

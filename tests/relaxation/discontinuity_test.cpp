@@ -7,7 +7,8 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::discontinuity_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 
@@ -156,3 +157,5 @@ TEST_CASE("most likely: chance alone is hardly ever taken for an edge and least 
     CHECK(likely <= 4);
     CHECK(varied > 20); // why it is not the default
 }
+
+} // namespace nephroid::tests::discontinuity_test

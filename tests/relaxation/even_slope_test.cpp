@@ -7,9 +7,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::even_slope_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 namespace {
 /// The mean of f(x) over the unit disc, by the midpoint rule in the angle whose cosine is x: dA = 2 sin² dangle.
@@ -72,3 +72,5 @@ TEST_CASE("even slope: a steep slope holds fewer photons if edges are told from 
     const auto edge = stepped_floor(5000, 113);
     CHECK(held(edge, 6) > 0.85 * held(edge, 0));
 }
+
+} // namespace nephroid::tests::even_slope_test

@@ -9,7 +9,8 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::flux_discontinuity_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 
@@ -76,3 +77,5 @@ TEST_CASE("flux discontinuity: noise of one mean is hardly ever taken for an edg
     }
     CHECK(taken <= 4);
 }
+
+} // namespace nephroid::tests::flux_discontinuity_test

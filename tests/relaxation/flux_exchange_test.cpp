@@ -10,9 +10,9 @@
 
 #include <numeric>
 
-using namespace nephroid;
+namespace nephroid::tests::flux_exchange_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 namespace {
 
@@ -202,3 +202,5 @@ TEST_CASE("flux diffusion: colours are exchanged band by band") {
         CHECK(after.second[band] < 0.6 * before.second[band]);
     }
 }
+
+} // namespace nephroid::tests::flux_exchange_test

@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::neighbourhood_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 namespace {
 
@@ -123,3 +123,5 @@ TEST_CASE("neighbourhood: many photons in one place cost no more than as many ap
         });
     CHECK(found_seven == photons.size());
 }
+
+} // namespace nephroid::tests::neighbourhood_test

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-using namespace nephroid;
+namespace nephroid::tests::options_test {
 
 namespace {
 
@@ -59,3 +59,5 @@ TEST_CASE("relaxation options: what cannot be is named with its value") {
     CHECK(complaint({.leash = 1e30}) == "nephroid::relax: leash 1e+30 is not above 0 and at most 16");
     CHECK(complaint({.edge_evidence = -1}) == "nephroid::relax: edge_evidence -1 is not 0 or positive, and finite");
 }
+
+} // namespace nephroid::tests::options_test

@@ -7,9 +7,9 @@
 
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::parallel_sheets_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 TEST_CASE("parallel sheets: the reach ends amid the gap between two layers") {
     const auto reach = [](std::vector<double> heights) { return sheet_reach<double>(heights, 1e-12); };
@@ -53,3 +53,5 @@ TEST_CASE("parallel sheets: photons of one sheet see it alone and a curved surfa
     CHECK(pairs > 10000);
     CHECK(apart == 0);
 }
+
+} // namespace nephroid::tests::parallel_sheets_test

@@ -14,9 +14,9 @@
 #include <optional>
 #include <string>
 
-using namespace nephroid;
+namespace nephroid::tests::relax_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 namespace {
 
@@ -661,3 +661,5 @@ TEST_CASE("relaxation: a map that keeps its density reports the pilot and the ne
     CHECK(report.pilot_unjudged);
     CHECK(report.pilot_neighbours == 150);
 }
+
+} // namespace nephroid::tests::relax_test

@@ -6,7 +6,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::repulsion_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 using tests::for_each_vector;
@@ -97,3 +98,5 @@ TEST_CASE_TEMPLATE("diffusion limit: halves a move of rho radii and damps longer
     CHECK(std::abs(diffusion_limit<T>(4 * rho * rho * r * r, r * r, rho) - T(0.0625)) <= tolerance); // 2^-4
     CHECK(diffusion_limit<T>(T(1e6), r * r, rho) == 0);
 }
+
+} // namespace nephroid::tests::repulsion_test

@@ -6,9 +6,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::target_spacing_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 namespace {
 
@@ -218,3 +218,5 @@ TEST_CASE("target spacing: flux is exchanged with the nearest as without it") {
     CHECK(std::abs(after - before) <= 800 * 13 * 20 * 1.2e-16);
     CHECK(spread < 0.02); // from 0.25
 }
+
+} // namespace nephroid::tests::target_spacing_test

@@ -15,7 +15,8 @@
 #include <limits>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::halton_test {
+
 using detail::faure_permutation;
 
 namespace {
@@ -242,3 +243,5 @@ TEST_CASE("HaltonSequence: integrates in four dimensions with a tenth of the err
     const double random = std::sqrt((std::pow(13.0 / 12, 4) - 1) / 4096);
     CHECK(error < random / 10);
 }
+
+} // namespace nephroid::tests::halton_test

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::hash_test {
 
 // The generator seeded with 0, whose state moves by the golden ratio, starts with these published numbers.
 TEST_CASE("mix_bits: is the finaliser of SplitMix64") {
@@ -62,3 +62,5 @@ TEST_CASE("uniform_from_bits: the most bits give the number before 1, no bits 0,
     CHECK(uniform_from_bits<double>(std::uint64_t{1} << 11) == std::ldexp(1.0, -53)); // the last bit that is kept
     CHECK(uniform_from_bits<double>(std::uint32_t{1}) == std::ldexp(1.0, -32));
 }
+
+} // namespace nephroid::tests::hash_test

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::random_test {
 
 TEST_CASE("RandomSequence: is a sequence") { tests::check_sequence_laws<RandomSequence>(20); }
 
@@ -43,3 +43,5 @@ TEST_CASE("RandomSequence: integrates with the error of independent samples") {
     CHECK(error > expected * 0.6);
     CHECK(error < expected * 1.4);
 }
+
+} // namespace nephroid::tests::random_test

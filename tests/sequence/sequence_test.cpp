@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <type_traits>
 
-using namespace nephroid;
+namespace nephroid::tests::sequence_test {
 
 namespace {
 
@@ -70,3 +70,5 @@ TEST_CASE("Sampler: starts at the dimension that it is told, and its copy goes o
     CHECK(copy.next<float>() == sequence.sample<float>(3, 7));
     CHECK(sampler.next<float>() == sequence.sample<float>(3, 6));
 }
+
+} // namespace nephroid::tests::sequence_test

@@ -15,7 +15,8 @@
 #include <sstream>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::sobol_test {
+
 using detail::nested_uniform_scramble;
 
 namespace {
@@ -240,3 +241,5 @@ TEST_CASE("SobolSequence: integrates in four dimensions with a twentieth of the 
     const double random = std::sqrt((std::pow(13.0 / 12, 4) - 1) / 4096);
     CHECK(error < random / 20);
 }
+
+} // namespace nephroid::tests::sobol_test

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+namespace nephroid::tests::coverage_test {
+
 using nephroid::detail::covered_share;
 using nephroid::detail::edge_integral;
 using nephroid::detail::FootprintPlace;
@@ -128,3 +130,5 @@ TEST_CASE("coverage: a triangle without area is shared out along its longest sid
     CHECK(covered_share(point) == 1);
     CHECK(covered_share(moved(point, 1, 0)) == 0);
 }
+
+} // namespace nephroid::tests::coverage_test

@@ -3,7 +3,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::hermite_patch_test {
+
 using namespace nephroid::detail;
 
 namespace {
@@ -50,3 +51,5 @@ TEST_CASE("Hermite patch: neighbours share the curve between them") {
     for (double v = 0; v <= 1; v += 0.25)
         CHECK(length(a(1, v) - b(0, v)) <= 1e-15);
 }
+
+} // namespace nephroid::tests::hermite_patch_test

@@ -16,7 +16,7 @@
 #include <optional>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::light_sheets_test {
 
 namespace {
 
@@ -220,3 +220,5 @@ TEST_CASE("light sheets: passes that share a picture add up to it") {
         CHECK(std::abs(e - float(is_lit)) <= 1e-3f);
     });
 }
+
+} // namespace nephroid::tests::light_sheets_test

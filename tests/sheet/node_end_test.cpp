@@ -9,7 +9,7 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::node_end_test {
 
 namespace {
 using End = detail::NodeEnd<glm::dvec3, double>;
@@ -43,3 +43,5 @@ TEST_CASE("joined: across a table's edge, between shelves and behind a wall they
 TEST_CASE("joined: what is off by less than a tenth of a pixel is one surface") {
     CHECK(are_joined(end_at({0, 0, 0}, {0, 0, 1}), end_at({0.02, 0, 0.0009}, {0, 0, 1})));
 }
+
+} // namespace nephroid::tests::node_end_test

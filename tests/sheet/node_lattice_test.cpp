@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::node_lattice_test {
 
 TEST_CASE("node grid: as many tasks trace its nodes as it says, and each node once") {
     using V = glm::vec3;
@@ -39,3 +39,5 @@ TEST_CASE("node grid: as many tasks trace its nodes as it says, and each node on
             CHECK(traced == std::vector<int>(traced.size(), 1));
         }
 }
+
+} // namespace nephroid::tests::node_lattice_test

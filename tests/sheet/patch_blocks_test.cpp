@@ -10,7 +10,8 @@
 #include <utility>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::patch_blocks_test {
+
 using namespace nephroid::detail;
 
 namespace {
@@ -157,3 +158,5 @@ TEST_CASE("patch: one that is out of sight is said to be so") {
     CHECK_FALSE(picture.draw(quad({2, 0, 0}, {3, 0, 0}, {3, 1, 0}, {2, 1, 0}), 1));
     CHECK(picture.blocks == 0);
 }
+
+} // namespace nephroid::tests::patch_blocks_test

@@ -20,7 +20,8 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::cross_validation_test {
+
 using detail::QuarterPictures;
 using tests::Draws;
 using tests::floor_of;
@@ -310,3 +311,5 @@ TEST_CASE_TEMPLATE("cross-validation: takes any vector", T, float, double) {
         CHECK(s == doctest::Approx(expected).epsilon(0.01)); // a photon at a border may change its mind
     });
 }
+
+} // namespace nephroid::tests::cross_validation_test

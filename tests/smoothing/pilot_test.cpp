@@ -23,7 +23,8 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::pilot_test {
+
 using tests::check_balance;
 using tests::Floor;
 using tests::floor_of;
@@ -383,3 +384,5 @@ TEST_CASE_TEMPLATE("second order: a light that also draws a wavelength still has
     REQUIRE(plain.size() > 1000);
     CHECK(plain == coloured);
 }
+
+} // namespace nephroid::tests::pilot_test

@@ -13,7 +13,8 @@
 #include <cstddef>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::threads_test {
+
 using tests::Floor;
 using tests::floor_of;
 using tests::GlassBall;
@@ -71,3 +72,5 @@ TEST_CASE("second order: any number of threads renders the same picture bit for 
         }
     }
 }
+
+} // namespace nephroid::tests::threads_test

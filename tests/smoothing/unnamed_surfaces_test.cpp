@@ -10,7 +10,8 @@
 #include <cmath>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::unnamed_surfaces_test {
+
 using tests::Sheet;
 using tests::SheetScene;
 
@@ -153,3 +154,5 @@ TEST_CASE("unnamed surfaces: two mirrors, one before the other, are not taken fo
     CHECK(difference(lit(UnnamedScene{named}, vertices), with_names) <= 1e-6);
     CHECK(difference(lit(MaterialScene{named}, vertices), with_names) <= 1e-6);
 }
+
+} // namespace nephroid::tests::unnamed_surfaces_test

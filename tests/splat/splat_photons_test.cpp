@@ -12,7 +12,8 @@
 
 #include <array>
 
-using namespace nephroid;
+namespace nephroid::tests::splat_photons_test {
+
 using tests::Draws;
 using tests::is_sanitized;
 using tests::Received;
@@ -429,3 +430,5 @@ TEST_CASE("splat photons: an invalid rescaling is refused") {
     CHECK_THROWS_WITH_AS(splat(deposits, sums, {.flux = -1}), "nephroid::splat: flux is -1; it must not be negative",
                          std::invalid_argument);
 }
+
+} // namespace nephroid::tests::splat_photons_test

@@ -13,7 +13,8 @@
 #include <limits>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::splat_reach_test {
+
 using tests::Draws;
 
 namespace {
@@ -219,3 +220,5 @@ TEST_CASE("splat reach: a flat leaf along the photon's normal does not overlap")
     for (std::uint32_t leaf = 0; leaf < map.tree().leaves().size(); ++leaf)
         CHECK(!reach(map.leaf(leaf)).meets);
 }
+
+} // namespace nephroid::tests::splat_reach_test

@@ -10,7 +10,8 @@
 
 #include <array>
 
-using namespace nephroid;
+namespace nephroid::tests::splat_test {
+
 using tests::Covariance;
 using tests::Draws;
 using tests::Vertex;
@@ -342,3 +343,5 @@ TEST_CASE_TEMPLATE("splat: a fixed footprint is a disk with any differential or 
     for (const double radius : {0.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
         CHECK(!make_splat(bare, map, bare_disk(radius)).splat);
 }
+
+} // namespace nephroid::tests::splat_test

@@ -13,7 +13,8 @@
 #include <numbers>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::splatting_work_test {
+
 using tests::Draws;
 
 namespace {
@@ -118,3 +119,5 @@ TEST_CASE("splatting work: the number of kernel evaluations is area times densit
         CHECK(evaluations < filled * square(2 * r + leaf));
     }
 }
+
+} // namespace nephroid::tests::splatting_work_test

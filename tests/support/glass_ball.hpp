@@ -58,15 +58,15 @@ struct FloorVertex {
 template <class V>
 using Floor = std::vector<FloorVertex<V>>;
 
-/// side × side vertices over the caustic of a glass ball above the origin.
+/// rows × rows vertices over the caustic of a glass ball above the origin.
 template <class V>
-[[nodiscard]] Floor<V> floor_of(int side, double reach = 0.8) {
+[[nodiscard]] Floor<V> floor_of(int rows, double reach = 0.8) {
     using T = scalar_t<V>;
     Floor<V> vertices;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < rows; ++x)
             vertices.push_back(
-                {make_vector<V>(T(reach * (2 * (x + 0.5) / side - 1)), T(reach * (2 * (y + 0.5) / side - 1)), T(0)),
+                {make_vector<V>(T(reach * (2 * (x + 0.5) / rows - 1)), T(reach * (2 * (y + 0.5) / rows - 1)), T(0)),
                  make_vector<V>(T(0), T(0), T(1))});
     return vertices;
 }
@@ -76,16 +76,16 @@ template <class V>
     return EyePathMap<V>(vertices, &FloorVertex<V>::position, &FloorVertex<V>::normal);
 }
 
-/// The irradiance at side × side vertices on the floor around the caustic, in slanting light of irradiance `sun`.
+/// The irradiance at rows × rows vertices on the floor around the caustic, in slanting light of irradiance `sun`.
 template <class Policies = Default, Vector3 V, Flux F>
-[[nodiscard]] std::vector<F> caustic_of(const GlassBall<V, F>& scene, const F& sun, int side = 16,
+[[nodiscard]] std::vector<F> caustic_of(const GlassBall<V, F>& scene, const F& sun, int rows = 16,
                                         std::uint64_t photons = 600) {
     using T = scalar_t<V>;
     using t = vector_traits<V>;
     std::vector<FloorVertex<V>> vertices;
-    for (int y = 0; y < side; ++y)
-        for (int x = 0; x < side; ++x)
-            vertices.push_back({t::make(T(1.6 * (x + 0.5) / side - 0.6), T(1.6 * (y + 0.5) / side - 0.8), T(0)),
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < rows; ++x)
+            vertices.push_back({t::make(T(1.6 * (x + 0.5) / rows - 0.6), T(1.6 * (y + 0.5) / rows - 0.8), T(0)),
                                 t::make(T(0), T(0), T(1))});
     const EyePathMap<V> map(vertices, &FloorVertex<V>::position, &FloorVertex<V>::normal);
     auto sums = nephroid::sums<F>(map);

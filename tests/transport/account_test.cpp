@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-using namespace nephroid;
+namespace nephroid::tests::account_test {
 
 namespace {
 
@@ -100,3 +100,5 @@ TEST_CASE("statistics: millions of photons lose no flux to rounding") {
     CHECK(std::abs(whole[Fate::splatted].flux - exact) <= 2 * rounding * exact);
     CHECK(std::abs(plain - exact) > 100 * rounding * exact); // else this would prove nothing
 }
+
+} // namespace nephroid::tests::account_test

@@ -13,7 +13,8 @@
 #include <optional>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::contacts_test {
+
 using tests::Sheet;
 using tests::SheetScene;
 
@@ -177,3 +178,5 @@ TEST_CASE("contacts: a photon ends as terminated where a scene leaves nothing ou
     CHECK_FALSE(walk(scene, tests::collimated<float>({0, 0, 2}, {0, 0, -1}), numbers, {}, account));
     CHECK(account[Fate::terminated].photons == 1);
 }
+
+} // namespace nephroid::tests::contacts_test

@@ -8,7 +8,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::hit_test {
+
 using tests::Draws;
 using tests::Space;
 using tests::Wide;
@@ -99,3 +100,5 @@ TEST_CASE_TEMPLATE("rounding_error: bounds how far a computed hit is from its pl
               8 * std::numeric_limits<T>::epsilon() * (7 + 5 + 3));
     });
 }
+
+} // namespace nephroid::tests::hit_test

@@ -6,7 +6,8 @@
 #include "nephroid/sequence/random.hpp"
 #include "transport/follow.hpp"
 
-using namespace nephroid;
+namespace nephroid::tests::lamp_in_scene_test {
+
 using tests::epsilon;
 using tests::Sheet;
 using tests::SheetScene;
@@ -90,3 +91,5 @@ TEST_CASE("lamp in the scene: a surface close to the lamp is not taken for it") 
     CHECK(account.specular_events == 1000);
     CHECK(account[Fate::absorbed].photons >= 999); // straight back onto the lamp
 }
+
+} // namespace nephroid::tests::lamp_in_scene_test

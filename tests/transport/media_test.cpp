@@ -11,7 +11,8 @@
 #include <optional>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::media_test {
+
 using tests::Sheet;
 using tests::SheetScene;
 
@@ -207,3 +208,5 @@ TEST_CASE("media: flights end and begin at false surfaces too") {
     CHECK(std::abs(flights.seen[1].origin.z - 1) <= 1e-12);
     CHECK(std::abs(flights.seen[1].distance - 1) <= 1e-12);
 }
+
+} // namespace nephroid::tests::media_test

@@ -14,7 +14,8 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::nonsense_test {
+
 using tests::check_balance;
 using tests::collimated;
 using tests::follow;
@@ -250,3 +251,5 @@ TEST_CASE("nonsense: probes of a tracer that skips more than they are long are a
     CHECK(std::abs(turn.x - 1) < 1e-8);
     CHECK(std::abs(turn.z) < 1e-8);
 }
+
+} // namespace nephroid::tests::nonsense_test

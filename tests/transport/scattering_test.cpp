@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::scattering_test {
 
 TEST_CASE("scattering: is made by the name of what happens") {
     using S = Scattering<glm::vec3, double>;
@@ -35,3 +35,5 @@ TEST_CASE("scattering: a mirror's answer has no index of refraction and is asked
     static_assert(!detail::refracts<S>);
     static_assert(detail::refracts<Scattering<float, float>>);
 }
+
+} // namespace nephroid::tests::scattering_test

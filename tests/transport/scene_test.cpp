@@ -3,7 +3,8 @@
 
 #include <memory>
 
-using namespace nephroid;
+namespace nephroid::tests::scene_test {
+
 using tests::Constant;
 
 namespace {
@@ -105,3 +106,5 @@ TEST_CASE("scene: a hit may come in anything that reads like an optional") {
     (void)walk(OneFloor{}, tests::collimated<float>({0, 0, 1}, {0, 0, 1}), sampler, {}, account);
     CHECK(account[Fate::escaped].photons == 1);
 }
+
+} // namespace nephroid::tests::scene_test

@@ -2,7 +2,8 @@
 // A renderer whose tracer finds nothing nearer than 0.001 to a ray's origin.
 #include "transport/follow.hpp"
 
-using namespace nephroid;
+namespace nephroid::tests::tracer_epsilon_test {
+
 using tests::check_balance;
 using tests::check_close;
 using tests::from_point;
@@ -74,3 +75,5 @@ TEST_CASE("tracer epsilon: over long ways it changes nothing") {
     for (std::size_t i = 0; i < 2; ++i)
         check_close(found->d_position[i], exact->d_position[i], 1e-14);
 }
+
+} // namespace nephroid::tests::tracer_epsilon_test

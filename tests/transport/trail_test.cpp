@@ -8,7 +8,8 @@
 #include <cstring>
 #include <set>
 
-using namespace nephroid;
+namespace nephroid::tests::trail_test {
+
 using tests::Constant;
 using tests::from_point;
 using tests::SheetScene;
@@ -197,3 +198,5 @@ TEST_CASE("trail: whatever is noted the walk is the same bit for bit") {
     CHECK(arrived > 10);
     CHECK(arrived < 41); // roulette took some
 }
+
+} // namespace nephroid::tests::trail_test

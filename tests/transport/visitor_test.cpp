@@ -14,7 +14,8 @@
 #include <set>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::visitor_test {
+
 using tests::check_balance;
 using tests::check_close;
 using tests::collimated;
@@ -411,3 +412,5 @@ TEST_CASE("visitor: photons without tangents ask no curvature of a hit") {
     REQUIRE(deposit);
     check_close(deposit->position, D{3, 0, 2}, 1e-12);
 }
+
+} // namespace nephroid::tests::visitor_test

@@ -2,7 +2,8 @@
 // How a walk turns about the normals of surfaces, and how its rays leave them.
 #include "transport/follow.hpp"
 
-using namespace nephroid;
+namespace nephroid::tests::walk_surfaces_test {
+
 using tests::check_balance;
 using tests::check_close;
 using tests::collimated;
@@ -262,3 +263,5 @@ TEST_CASE_TEMPLATE("walk: refracted light starts on the other side", T, float, d
     CHECK(account.specular_events == 2);
     check_close(deposit->direction, normalize(Vec<T>{T(0.5), 0, -1}), 16 * epsilon<T>);
 }
+
+} // namespace nephroid::tests::walk_surfaces_test

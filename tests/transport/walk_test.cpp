@@ -9,7 +9,8 @@
 #include <functional>
 #include <utility>
 
-using namespace nephroid;
+namespace nephroid::tests::walk_test {
+
 using tests::check_balance;
 using tests::check_close;
 using tests::collimated;
@@ -498,3 +499,5 @@ TEST_CASE("walk: a photon that is kept stays as it was, and goes where one that 
         CHECK(other.d_position == kept->d_position);
     }
 }
+
+} // namespace nephroid::tests::walk_test

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::ways_test {
 
 namespace {
 using Way = Scattering<float, float>;
@@ -49,3 +49,5 @@ TEST_CASE("ways: none, one or two are kept in order, and more where there is roo
     REQUIRE(three.size() == 3);
     CHECK(three[2].weight == 0.3f);
 }
+
+} // namespace nephroid::tests::ways_test

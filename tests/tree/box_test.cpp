@@ -3,7 +3,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::box_test {
 
 TEST_CASE("box: boxes that touch overlap and flat ones do too") {
     const Box<float> unit{{0, 0, 0}, {1, 1, 1}};
@@ -26,3 +26,5 @@ TEST_CASE("box: grows to hold others and an empty one becomes the first of them"
     CHECK(box.low == std::array<double, 3>{0, 2, 0});
     CHECK(box.high == std::array<double, 3>{4, 9, 6});
 }
+
+} // namespace nephroid::tests::box_test

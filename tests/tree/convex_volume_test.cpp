@@ -13,7 +13,8 @@
 #include <cmath>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::convex_volume_test {
+
 using tests::Draws;
 
 namespace {
@@ -174,3 +175,5 @@ TEST_CASE("convex volume: any half spaces of one's own bound it") {
     CHECK(corner.overlaps({{0.25, 0.25, 0.5}, {0.25, 0.25, 0.5}})); // on the plane
     CHECK(!corner.overlaps({{-1, -1, -1}, {-0.1, 0, 0}}));          // beside the box
 }
+
+} // namespace nephroid::tests::convex_volume_test

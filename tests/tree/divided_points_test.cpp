@@ -7,7 +7,7 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::divided_points_test {
 
 // Down to leaves, with coordinates that are the same for many.
 TEST_CASE_TEMPLATE("divided points: each half lies on its side and no point is lost", T, float, double) {
@@ -40,3 +40,5 @@ TEST_CASE_TEMPLATE("divided points: each half lies on its side and no point is l
     for (const int times : seen)
         CHECK(times == 1);
 }
+
+} // namespace nephroid::tests::divided_points_test

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::nearest_points_test {
+
 using tests::Draws;
 
 namespace {
@@ -101,3 +102,5 @@ TEST_CASE("nearest points: a limit of zero leaves none") {
     CHECK(nearest(std::vector<float>(40, 0.0f), 3, 0.0f).empty());
     CHECK(nearest(std::vector<float>{}, 3).empty());
 }
+
+} // namespace nephroid::tests::nearest_points_test

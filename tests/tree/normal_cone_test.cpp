@@ -9,7 +9,7 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::normal_cone_test {
 
 namespace {
 
@@ -59,3 +59,5 @@ TEST_CASE("normal cone: of equal normals says what each of them says") {
     CHECK(cone.facing(across.x, across.y, across.z).some == (product > 0));
     CHECK(cone.facing(across.x, across.y, across.z).all == (product > 0));
 }
+
+} // namespace nephroid::tests::normal_cone_test

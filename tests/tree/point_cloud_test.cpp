@@ -5,7 +5,7 @@
 
 #include <array>
 
-using namespace nephroid;
+namespace nephroid::tests::point_cloud_test {
 
 TEST_CASE("point cloud: is centred on the median and a stray point far away does not move it") {
     detail::PointCloud<float> cloud;
@@ -19,3 +19,5 @@ TEST_CASE("point cloud: is centred on the median and a stray point far away does
     detail::PointCloud<float> empty;
     CHECK(detail::centre_on_median(empty) == std::array<float, 3>{0, 0, 0});
 }
+
+} // namespace nephroid::tests::point_cloud_test

@@ -10,7 +10,8 @@
 
 #include <cstring>
 
-using namespace nephroid;
+namespace nephroid::tests::point_tree_refit_test {
+
 using tests::Draws;
 
 namespace {
@@ -97,3 +98,5 @@ TEST_CASE("point tree refit: boxes are tight and the same for any number of thre
     nothing.refit(none, serial);
     CHECK(nothing.empty());
 }
+
+} // namespace nephroid::tests::point_tree_refit_test

@@ -11,7 +11,8 @@
 #include <stdexcept>
 #include <string>
 
-using namespace nephroid;
+namespace nephroid::tests::point_tree_test {
+
 using tests::Draws;
 
 namespace {
@@ -409,3 +410,5 @@ TEST_CASE("point tree: the nearest points are found in a tree hundreds of levels
             REQUIRE(found[i].distance2 == doctest::Approx(all[i]).epsilon(1e-14));
     }
 }
+
+} // namespace nephroid::tests::point_tree_test

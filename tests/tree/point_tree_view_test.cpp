@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::point_tree_view_test {
 
 namespace {
 
@@ -82,3 +82,5 @@ TEST_CASE_TEMPLATE("point tree view: over copied arrays finds what the tree find
             CHECK(nearest[i].slot == other[i].slot);
     }
 }
+
+} // namespace nephroid::tests::point_tree_view_test

@@ -7,7 +7,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::smallest_test {
+
 using tests::Draws;
 
 // What the limit keeps is counted, and compared with the sorted values.
@@ -41,3 +42,5 @@ TEST_CASE_TEMPLATE("smallest: the limit keeps as many as are wanted and a few to
                 }
             }
 }
+
+} // namespace nephroid::tests::smallest_test

@@ -11,7 +11,7 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::volume_test {
 
 namespace {
 
@@ -101,3 +101,5 @@ TEST_CASE("volume: one that asks for normals gets all leaves of a tree without a
     tree.visit_leaves(Facing{everything, std::array{0.0, 0.0, 1.0}}, [&](std::uint32_t) { ++leaves; });
     CHECK(leaves == tree.leaves().size());
 }
+
+} // namespace nephroid::tests::volume_test

@@ -14,7 +14,8 @@
 #include <span>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::wide_tree_test {
+
 using tests::Draws;
 
 namespace {
@@ -148,3 +149,5 @@ TEST_CASE("wide tree: a box without an end meets every leaf once") {
                 CHECK(met[i] == i);
         }
 }
+
+} // namespace nephroid::tests::wide_tree_test

@@ -13,7 +13,8 @@
 #include <cstddef>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::dual_caustic_test {
+
 using Number = Dual<double>;
 
 namespace {
@@ -73,3 +74,5 @@ TEST_CASE("dual numbers: a caustic's derivative by the glass's tint is twice the
     CHECK(brightest > 1);
     CHECK(furthest <= 1e-13 * brightest); // some hundred parts are summed up, each of a few roundings
 }
+
+} // namespace nephroid::tests::dual_caustic_test

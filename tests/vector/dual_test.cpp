@@ -8,7 +8,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::dual_test {
+
 using tests::Wide;
 
 namespace {
@@ -111,3 +112,5 @@ TEST_CASE("dual: of dual numbers there are second derivatives") {
     CHECK(sqrt(x).derivative(0).derivative(0) == doctest::Approx(-0.25 / std::pow(0.5, 1.5)));
     CHECK(double(f.derivative(1).value()) == doctest::Approx(3 * 0.25 * 4));
 }
+
+} // namespace nephroid::tests::dual_test

@@ -5,6 +5,8 @@
 
 #include <string>
 
+namespace nephroid::tests::error_test {
+
 #if defined(__cpp_exceptions)
 
 TEST_CASE("invalid_argument: throws std::invalid_argument with the message as it was given") {
@@ -40,3 +42,5 @@ TEST_CASE("error_handler: is there from the start") {
     const bool there = nephroid::error_handler != nullptr;
     CHECK(there);
 }
+
+} // namespace nephroid::tests::error_test

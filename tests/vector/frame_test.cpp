@@ -9,7 +9,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::frame_test {
+
 using tests::Draws;
 using tests::Space;
 using tests::Wide;
@@ -91,3 +92,5 @@ TEST_CASE_TEMPLATE("frame_about: turns little when a direction near the axis tur
 }
 
 } // namespace
+
+} // namespace nephroid::tests::frame_test

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-using namespace nephroid;
+namespace nephroid::tests::in_place_test {
 
 namespace {
 
@@ -48,3 +48,5 @@ TEST_CASE("in place: an optional's object is made in the optional") {
     CHECK(emplaced->moves <= most_moves);
     CHECK(made == 2);
 }
+
+} // namespace nephroid::tests::in_place_test

@@ -7,7 +7,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::least_squares_test {
+
 using namespace nephroid::detail;
 
 TEST_CASE("least squares: exact rows give the unknowns whatever their weights") {
@@ -56,3 +57,5 @@ TEST_CASE("least squares: rows that do not span are refused") {
     parallel.add({2, 4}, 6, 1);
     CHECK(!parallel.solve(2, x));
 }
+
+} // namespace nephroid::tests::least_squares_test

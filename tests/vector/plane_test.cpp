@@ -8,7 +8,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::plane_test {
+
 using detail::congruent;
 using detail::Plane2;
 using detail::PlaneMatrix;
@@ -141,3 +142,5 @@ TEST_CASE("plane: an isotropic tensor and nothing at all have some unit axis") {
         check_same(p.with(2, 2), Symmetric2::isotropic(2), 8 * epsilon);
     }
 }
+
+} // namespace nephroid::tests::plane_test

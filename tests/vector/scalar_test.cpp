@@ -8,6 +8,8 @@
 #include <complex>
 #include <string>
 
+namespace nephroid::tests::scalar_test {
+
 namespace {
 
 using nephroid::Scalar;
@@ -48,3 +50,5 @@ TEST_CASE("scalar functions: the library's names reach built-in types and others
 }
 
 } // namespace
+
+} // namespace nephroid::tests::scalar_test

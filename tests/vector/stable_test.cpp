@@ -8,7 +8,8 @@
 #include <cmath>
 #include <cstdint>
 
-using namespace nephroid;
+namespace nephroid::tests::stable_test {
+
 using tests::Draws;
 using tests::Wide;
 
@@ -96,3 +97,5 @@ TEST_CASE("keep_if: works for a scalar that is a class") {
 }
 
 } // namespace
+
+} // namespace nephroid::tests::stable_test

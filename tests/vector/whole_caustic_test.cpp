@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::whole_caustic_test {
 
 namespace {
 
@@ -60,3 +60,5 @@ TEST_CASE_TEMPLATE("a whole caustic: is the same in every vector type as in GLM'
     MESSAGE("Eigen is not installed: not tried");
 #endif
 }
+
+} // namespace nephroid::tests::whole_caustic_test

@@ -11,7 +11,8 @@
 #include <limits>
 #include <type_traits>
 
-using namespace nephroid;
+namespace nephroid::tests::wide_test {
+
 using tests::Space;
 using tests::Wide;
 
@@ -65,3 +66,5 @@ TEST_CASE_TEMPLATE("wide: narrowing scales and rounds each component once more",
     CHECK(found.y == T(-1));
     CHECK(found.z == T(W(1) / W(6))); // halving is exact
 }
+
+} // namespace nephroid::tests::wide_test

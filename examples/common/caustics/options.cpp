@@ -86,7 +86,7 @@ const Names<bool> reflections = {{"one", true}, {"any", false}};
            std::to_string(NEPHROID_VERSION_PATCH);
 }
 
-void check(const Options& options) {
+void refuse_contradictions(const Options& options) {
     if (options.smoothing && (!std::isfinite(*options.smoothing) || !(*options.smoothing > 0)))
         throw UsageError("--smoothing: " + std::to_string(*options.smoothing) + " is not a positive number");
     if (!options.first_order && options.cross_validated)
@@ -187,7 +187,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
         options.json = json;
     if (!reference.empty())
         options.reference = reference;
-    check(options);
+    refuse_contradictions(options);
     return options;
 }
 

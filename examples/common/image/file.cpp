@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+[[noreturn]] void fail_to_write(const fs::path& path, const std::string& reason) {
     throw std::runtime_error("cannot write '" + path.string() + "': " + reason);
 }
 
@@ -32,7 +32,7 @@ public:
         errno = 0;
         stream_.open(path_, std::ios::binary | std::ios::trunc);
         if (!stream_)
-            fail(target_, last_reason("its folder takes no new file"));
+            fail_to_write(target_, last_reason("its folder takes no new file"));
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
@@ -48,14 +48,14 @@ public:
         stream_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
         stream_.close(); // what is still buffered meets a full disk here
         if (!stream_)
-            fail(target_, last_reason("the disk does not take all of it"));
+            fail_to_write(target_, last_reason("the disk does not take all of it"));
     }
 
     void take_name_of_target() {
         std::error_code error;
         fs::rename(path_, target_, error);
         if (error)
-            fail(target_, error.message());
+            fail_to_write(target_, error.message());
         kept_ = true;
     }
 
@@ -74,21 +74,21 @@ fs::path resolve(const fs::path& path) {
     fs::path target = path;
     for (int links = 0; fs::is_symlink(fs::symlink_status(target, error)); ++links) {
         if (links == 40) // as many as Linux follows
-            fail(path, "too many symbolic links");
+            fail_to_write(path, "too many symbolic links");
         target = target.parent_path() / fs::read_symlink(target, error);
     }
 
     const fs::file_status status = fs::status(target, error);
     if (fs::is_directory(status))
-        fail(path, "it is a folder");
+        fail_to_write(path, "it is a folder");
     if (fs::exists(status)) {
         if (!fs::is_regular_file(status)) // a rename would replace /dev/null by a picture
-            fail(path, "it is not a regular file");
+            fail_to_write(path, "it is not a regular file");
         errno = 0;
         if (!std::ofstream(target, std::ios::binary | std::ios::app)) // appending nothing changes nothing
-            fail(path, last_reason("it takes no output"));
+            fail_to_write(path, last_reason("it takes no output"));
     } else if (!target.has_filename()) {
-        fail(path, "it names a folder, not a file");
+        fail_to_write(path, "it names a folder, not a file");
     }
     return target;
 }

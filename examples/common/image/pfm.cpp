@@ -37,7 +37,7 @@ float sample_at(const std::string& bytes, std::size_t offset, bool little_endian
     return std::bit_cast<float>(bits);
 }
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, const std::string& reason) {
     throw std::runtime_error("cannot read '" + path.string() + "': " + reason);
 }
 
@@ -45,11 +45,11 @@ std::string read_bytes(const std::filesystem::path& path) {
     std::error_code error;
     const std::uintmax_t size = std::filesystem::file_size(path, error);
     if (error)
-        fail(path, error.message());
+        fail_to_read(path, error.message());
     std::ifstream stream(path, std::ios::binary);
     std::string bytes(static_cast<std::size_t>(size), '\0');
     if (!stream.read(bytes.data(), static_cast<std::streamsize>(size)))
-        fail(path, "it cannot be opened, or not be read to its end");
+        fail_to_read(path, "it cannot be opened, or not be read to its end");
     return bytes;
 }
 
@@ -73,20 +73,20 @@ Samples read_pfm(const std::filesystem::path& path) {
     std::size_t width = 0, height = 0;
     double scale = 0;
     if (!(header >> magic) || (magic != "Pf" && magic != "PF"))
-        fail(path, "it does not start with Pf or PF, so it is no PFM image");
+        fail_to_read(path, "it does not start with Pf or PF, so it is no PFM image");
     // A size above 2^24 a side is a damaged header; below it, no product of sizes overflows.
     constexpr std::size_t largest = std::size_t{1} << 24;
     if (!(header >> width >> height) || width == 0 || height == 0 || width > largest || height > largest)
-        fail(path, "its header holds no valid width and height");
+        fail_to_read(path, "its header holds no valid width and height");
     if (!(header >> scale) || scale == 0 || !std::isfinite(scale) || !std::isspace(header.peek()))
-        fail(path, "its header holds no valid scale");
+        fail_to_read(path, "its header holds no valid scale");
     header.get(); // one white space, then samples
 
     const std::size_t channels = magic == "Pf" ? 1 : 3;
     const std::size_t count = width * height * channels, start = static_cast<std::size_t>(header.tellg());
     if (bytes.size() - start != 4 * count)
-        fail(path, "it holds " + std::to_string(bytes.size() - start) + " bytes of samples, its header promises " +
-                       std::to_string(4 * count));
+        fail_to_read(path, "it holds " + std::to_string(bytes.size() - start) +
+                               " bytes of samples, its header promises " + std::to_string(4 * count));
 
     Samples image(width, height, channels, std::vector<float>(count));
     const auto magnitude = static_cast<float>(std::abs(scale));

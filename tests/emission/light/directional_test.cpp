@@ -11,8 +11,7 @@
 #include <limits>
 #include <stdexcept>
 
-using namespace nephroid;
-using namespace nephroid::tests;
+namespace nephroid::tests::directional_test {
 
 static_assert(Light<DirectionalLight<glm::vec3, float>>);
 static_assert(Light<DirectionalLight<glm::vec3, glm::vec3>>);
@@ -152,3 +151,5 @@ TEST_CASE("directional light: parameters that cannot be are refused") {
     CHECK_THROWS_AS(make({0, 0, -1}, 1, Parallelogram<V>{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}), std::invalid_argument);
     CHECK_THROWS_AS(make({0, 0, -1}, 1, Parallelogram<V>{{0, nan, 0}, {1, 0, 0}, {0, 1, 0}}), std::invalid_argument);
 }
+
+} // namespace nephroid::tests::directional_test

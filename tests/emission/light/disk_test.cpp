@@ -11,8 +11,7 @@
 #include <limits>
 #include <stdexcept>
 
-using namespace nephroid;
-using namespace nephroid::tests;
+namespace nephroid::tests::disk_test {
 
 static_assert(Light<DiskLight<glm::vec3, float>>);
 static_assert(Light<DiskLight<glm::dvec3, glm::dvec3>>);
@@ -157,3 +156,5 @@ TEST_CASE("disk light: parameters that cannot be are refused") {
     CHECK_THROWS_AS(make({0, 0, 0}, {0, 0, 5}, nan, 1), std::invalid_argument);
     CHECK_THROWS_AS(make({0, 0, 0}, {0, 0, 5}, 1, -1), std::invalid_argument);
 }
+
+} // namespace nephroid::tests::disk_test

@@ -11,7 +11,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::domain_laws_test {
+
 using tests::check_domain;
 
 namespace {
@@ -91,3 +92,5 @@ TEST_CASE("light domains: a light without its tangents has the domain that it ha
     CHECK(domain_of(bare).kinks[0] == Kinks::diagonals);
     static_assert(emission_domains<WithoutTangents<StandardLights<D, double>>>.four);
 }
+
+} // namespace nephroid::tests::domain_laws_test

@@ -9,7 +9,8 @@
 #include <cmath>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::lamp_over_mirror_test {
+
 using tests::Sheet;
 using tests::SheetScene;
 
@@ -145,3 +146,5 @@ TEST_CASE("lamps over a mirror: lamps with an area") {
         {.centre = lamp_position, .radius = radius, .radiance = 1 / area, .target = target});
     CHECK(error_of(sphere, 40'000, by_point) <= 0.1);
 }
+
+} // namespace nephroid::tests::lamp_over_mirror_test

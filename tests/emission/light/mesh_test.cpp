@@ -13,8 +13,7 @@
 #include <stdexcept>
 #include <vector>
 
-using namespace nephroid;
-using namespace nephroid::tests;
+namespace nephroid::tests::mesh_test {
 
 static_assert(Light<MeshLight<glm::vec3, float>>);
 static_assert(Light<MeshLight<glm::vec3, glm::vec3>>);
@@ -121,3 +120,5 @@ TEST_CASE("mesh light: parameters that cannot be are refused") {
     CHECK_THROWS_AS(make({{V(0, 0, 0), V(1, 0, nan), V(0, 1, 0)}}, 1), std::invalid_argument);
     CHECK_THROWS_AS(make(row<float>(), -1), std::invalid_argument);
 }
+
+} // namespace nephroid::tests::mesh_test

@@ -12,8 +12,7 @@
 #include <stdexcept>
 #include <string>
 
-using namespace nephroid;
-using namespace nephroid::tests;
+namespace nephroid::tests::point_test {
 
 static_assert(Light<PointLight<glm::vec3, float>>);
 static_assert(Light<PointLight<glm::vec3, glm::vec3>>);
@@ -88,3 +87,5 @@ TEST_CASE("point light: parameters that cannot be are refused with their name an
     CHECK_THROWS_AS(Coloured({.position = {0, 0, 0}, .intensity = {3, -1, 3}}), std::invalid_argument);
     CHECK_NOTHROW(Point({.position = {0, 0, 0}, .intensity = 0}));
 }
+
+} // namespace nephroid::tests::point_test

@@ -10,8 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
-using namespace nephroid;
-using namespace nephroid::tests;
+namespace nephroid::tests::quad_test {
 
 static_assert(Light<QuadLight<glm::vec3, float>>);
 static_assert(Light<QuadLight<glm::vec3, glm::vec3>>);
@@ -81,3 +80,5 @@ TEST_CASE("quad light: parameters that cannot be are refused") {
     CHECK_THROWS_AS(make({0, 0, 0}, {1, 0, nan}, {0, 1, 0}, 1), std::invalid_argument);
     CHECK_THROWS_AS(make({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, -1), std::invalid_argument);
 }
+
+} // namespace nephroid::tests::quad_test

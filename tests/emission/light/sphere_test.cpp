@@ -11,8 +11,7 @@
 #include <limits>
 #include <stdexcept>
 
-using namespace nephroid;
-using namespace nephroid::tests;
+namespace nephroid::tests::sphere_test {
 
 static_assert(Light<SphereLight<glm::vec3, float>>);
 static_assert(Light<SphereLight<glm::vec3, glm::vec3>>);
@@ -124,3 +123,5 @@ TEST_CASE("sphere light: parameters that cannot be are refused") {
     CHECK_THROWS_AS(Sphere<float>({.centre = {0, nan, 0}, .radius = 1, .radiance = 1}), std::invalid_argument);
     CHECK_THROWS_AS(Sphere<float>({.centre = {0, 0, 0}, .radius = 1, .radiance = -1}), std::invalid_argument);
 }
+
+} // namespace nephroid::tests::sphere_test

@@ -11,8 +11,7 @@
 #include <limits>
 #include <stdexcept>
 
-using namespace nephroid;
-using namespace nephroid::tests;
+namespace nephroid::tests::spot_test {
 
 static_assert(Light<SpotLight<glm::vec3, float>>);
 static_assert(Light<SpotLight<glm::dvec3, glm::dvec3>>);
@@ -109,3 +108,5 @@ TEST_CASE("spot light: parameters that cannot be are refused") {
     CHECK_THROWS_AS(make({0, 0, 1}, 0.9f, nan, 1), std::invalid_argument);
     CHECK_THROWS_AS(make({0, 0, 1}, 0.9f, 0.5f, -1), std::invalid_argument);
 }
+
+} // namespace nephroid::tests::spot_test

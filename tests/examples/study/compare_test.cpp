@@ -19,8 +19,8 @@
 #include <cmath>
 #include <initializer_list>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::compare_test {
+
 using namespace nephroid::examples::study;
 using namespace nephroid::examples::study::compare;
 using namespace nephroid::tests;
@@ -273,3 +273,5 @@ TEST_CASE("compare: a small comparison fills its tables and its page") {
     CHECK(html.find("gnuplot was missing") != std::string::npos);
     CHECK(html.find("http") == std::string::npos);
 }
+
+} // namespace nephroid::examples::compare_test

@@ -21,8 +21,8 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
-using namespace nephroid::examples;
+namespace nephroid::examples::relax_test {
+
 using namespace nephroid::examples::study::relax;
 using namespace nephroid::tests;
 
@@ -349,3 +349,5 @@ TEST_CASE("relaxation: random photons are white noise before and blue after") {
     CHECK(csv.starts_with("map,neighbours,seconds,rel,RMSE,SSIM,energy\nunrelaxed,20,"));
     CHECK(std::ranges::count(csv, '\n') == 5);
 }
+
+} // namespace nephroid::examples::relax_test

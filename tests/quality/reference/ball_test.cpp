@@ -6,7 +6,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid::reference;
+namespace nephroid::reference::ball_test {
+
 using nephroid::tests::is_sanitized;
 
 namespace {
@@ -144,3 +145,5 @@ TEST_CASE("reference ball: the image is symmetric, and the number of threads doe
             transposed[i * 40 + j] = image[j * 40 + i];
     CHECK(worst_difference(transposed, image) < 1e-11);
 }
+
+} // namespace nephroid::reference::ball_test

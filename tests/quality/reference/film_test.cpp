@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid::reference;
+namespace nephroid::reference::film_test {
 
 namespace {
 
@@ -124,3 +124,5 @@ TEST_CASE("reference: the transmittance is right at normal incidence, at Brewste
     CHECK(std::abs(detail::transmittance(1, n)) < 1e-15);
     CHECK(std::abs(detail::transmittance(0.7, n) - detail::transmittance(0.7 / n, 1 / n)) < 1e-15);
 }
+
+} // namespace nephroid::reference::film_test

@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid::reference;
+namespace nephroid::reference::ring_test {
 
 namespace {
 
@@ -120,3 +120,5 @@ TEST_CASE("reference ring: the image is symmetric, and the number of threads doe
             flipped[(39 - j) * 50 + i] = image[j * 50 + i];
     CHECK(worst_difference(flipped, image) < 1e-9); // film.y(j) rounds differently at both ends
 }
+
+} // namespace nephroid::reference::ring_test

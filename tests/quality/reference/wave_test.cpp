@@ -5,7 +5,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid::reference;
+namespace nephroid::reference::wave_test {
 
 namespace {
 
@@ -114,3 +114,5 @@ TEST_CASE("reference wave: the number of threads does not change a bit") {
         CHECK(wave(focused_fresnel, film, nephroid::SerialExecutor()) ==
               wave(focused_fresnel, film, nephroid::ThreadExecutor(5)));
 }
+
+} // namespace nephroid::reference::wave_test

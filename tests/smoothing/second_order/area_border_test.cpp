@@ -7,7 +7,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::area_border_test {
+
 using namespace nephroid::detail;
 using tests::area_samples;
 
@@ -42,3 +43,5 @@ TEST_CASE("area border: the domain has borders along the axes with several cells
     CHECK(border->outwards[2] > 0.98);
     CHECK(std::abs(border->distance - 0.5) < 0.1); // half a cell away
 }
+
+} // namespace nephroid::tests::area_border_test

@@ -10,7 +10,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::area_cells_test {
+
 using namespace nephroid::detail;
 using tests::area_samples;
 
@@ -98,3 +99,5 @@ TEST_CASE("area cells: the cells around a cell are those that touch it") {
     CHECK(inside == 3 * 1 * 2 * 3);
     CHECK(inside + beyond == 81);
 }
+
+} // namespace nephroid::tests::area_cells_test

@@ -13,7 +13,8 @@
 #include <cmath>
 #include <optional>
 
-using namespace nephroid;
+namespace nephroid::tests::area_field_test {
+
 using namespace nephroid::detail;
 using tests::AreaLamp;
 using tests::AreaLanding;
@@ -268,3 +269,5 @@ TEST_CASE("area field: photons at one place make no field and invalid ones are s
     REQUIRE(said);
     CHECK(std::isfinite(said->shape.trace()));
 }
+
+} // namespace nephroid::tests::area_field_test

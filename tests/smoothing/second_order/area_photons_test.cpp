@@ -8,7 +8,8 @@
 #include <limits>
 #include <numeric>
 
-using namespace nephroid;
+namespace nephroid::tests::area_photons_test {
+
 using namespace nephroid::detail;
 using tests::AreaLamp;
 using tests::AreaLanding;
@@ -84,3 +85,5 @@ TEST_CASE("area photons: the cells are cubes if the tangents change equally alon
         CHECK(counts[axis] <= 9);
     }
 }
+
+} // namespace nephroid::tests::area_photons_test

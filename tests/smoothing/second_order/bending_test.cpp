@@ -8,7 +8,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::bending_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 
@@ -190,3 +191,5 @@ TEST_CASE("bending: it is finite at folds and points") {
             CHECK(principal.larger <= square(stretch) * principal.smaller * (1 + 1e-6));
         }
 }
+
+} // namespace nephroid::tests::bending_test

@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::border_bounds_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 TEST_CASE("border bounds: footprints reach to the border of the domain and no further") {
     const Field field = field_of(affine);
@@ -106,3 +106,5 @@ TEST_CASE("border bounds: a long domain bounds footprints by the distance to its
                         {between(s2, extent * u * width, extent * width), 0, between(s2, v * width, width)}, 1e-6 * s2);
         }
 }
+
+} // namespace nephroid::tests::border_bounds_test

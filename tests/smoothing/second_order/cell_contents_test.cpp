@@ -3,7 +3,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::cell_contents_test {
+
 using namespace nephroid::detail;
 
 TEST_CASE("cell contents: each photon is in its cell and in order") {
@@ -30,3 +31,5 @@ TEST_CASE("cell contents: no photons leave all cells empty") {
     CHECK(contents[0].empty());
     CHECK(contents[1].empty());
 }
+
+} // namespace nephroid::tests::cell_contents_test

@@ -17,7 +17,8 @@
 #include <string>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::curved_footprints_test {
+
 using namespace nephroid::detail;
 
 namespace {
@@ -222,3 +223,5 @@ TEST_CASE("curved footprints: the message names the option that makes no sense")
     CHECK(message({{}, std::numeric_limits<double>::quiet_NaN()}).find("least_bend is nan") != std::string::npos);
     CHECK(message({{.largest_shift = -1}, 0.5}).find("largest_shift is -1") != std::string::npos);
 }
+
+} // namespace nephroid::tests::curved_footprints_test

@@ -11,7 +11,8 @@
 #include <limits>
 #include <set>
 
-using namespace nephroid;
+namespace nephroid::tests::emission_cells_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 using tests::halton;
@@ -142,3 +143,5 @@ TEST_CASE("path sample: its tangents are half of the deposit's") {
     CHECK(tangents[1].y == doctest::Approx(-u0).epsilon(4 * epsilon));
     CHECK(tangents[1].z == 0);
 }
+
+} // namespace nephroid::tests::emission_cells_test

@@ -14,7 +14,8 @@
 #include <limits>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::emission_frame_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 using tests::GivenSamples;
@@ -160,3 +161,5 @@ TEST_CASE("emission frame: tangents on a line are not regular") {
     CHECK(!with({infinity, 0, 0}, {0, 1, 0}).is_regular());
     CHECK(!EmissionFrame().is_regular());
 }
+
+} // namespace nephroid::tests::emission_frame_test

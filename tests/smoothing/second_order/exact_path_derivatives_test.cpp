@@ -17,7 +17,8 @@
 #include <optional>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::exact_path_derivatives_test {
+
 using namespace nephroid::detail;
 using tests::for_photons;
 using tests::Neighbours;
@@ -193,3 +194,5 @@ TEST_CASE("exact path derivatives: fitted derivatives converge to them as photon
     check(sun<double>());
     check(bulb());
 }
+
+} // namespace nephroid::tests::exact_path_derivatives_test

@@ -10,7 +10,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::footprint_field_test {
+
 using namespace nephroid::detail;
 using tests::affine;
 using tests::Draws;
@@ -118,3 +119,5 @@ TEST_CASE("footprint field: groups side by side have a border between them") {
             CHECK(here->shape.yy > 1.5 * here->shape.xx);
         }
 }
+
+} // namespace nephroid::tests::footprint_field_test

@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::group_borders_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 // The outermost photons on the left are at column 30 of 0 to 62, on the right at column 31: borders are laid there.
 TEST_CASE("group borders: both sides of a change of path have a border") {
@@ -125,3 +125,5 @@ TEST_CASE("group borders: single lost photons make no border") {
             CHECK(std::abs(here->shape.xx - here->shape.yy) <= 1e-6 * here->shape.xx);
         }
 }
+
+} // namespace nephroid::tests::group_borders_test

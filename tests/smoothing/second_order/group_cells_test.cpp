@@ -5,7 +5,8 @@
 
 #include <doctest/doctest.h>
 
-using namespace nephroid;
+namespace nephroid::tests::group_cells_test {
+
 using namespace nephroid::detail;
 using tests::Samples;
 
@@ -54,3 +55,5 @@ TEST_CASE("group cells: squares without photons are neither cells nor neighbours
     CHECK(count == 2); // itself, and the one beside it: nothing above
     CHECK(weights == 4 + 2);
 }
+
+} // namespace nephroid::tests::group_cells_test

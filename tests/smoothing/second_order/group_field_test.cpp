@@ -9,9 +9,9 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::group_field_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 // The radius is the largest there is, 32: borders are felt from 2.9 times that on, and half of the domain is 167 units.
 TEST_CASE("group field: a straight map has round footprints and no shift away from its borders") {
@@ -133,3 +133,5 @@ TEST_CASE("group field: any number of threads makes the same field bit for bit")
         }
     }
 }
+
+} // namespace nephroid::tests::group_field_test

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::group_fit_test {
+
 using namespace nephroid::detail;
-using namespace nephroid::tests;
 
 TEST_CASE("group fit: a quadratic map's second derivatives are the same everywhere") {
     for (const bool given : {false, true}) {
@@ -84,3 +84,5 @@ TEST_CASE("group fit: a photon with far longer tangents than its neighbours does
     for (std::size_t i = 0; i < 3; ++i)
         CHECK(distance(here->second[i], plain->second[i]) <= 4 * size / longer);
 }
+
+} // namespace nephroid::tests::group_fit_test

@@ -10,7 +10,8 @@
 #include <cstdlib>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::group_frames_test {
+
 using namespace nephroid::detail;
 
 namespace {
@@ -93,3 +94,5 @@ TEST_CASE("group frames: photons on a line give no frame") {
     detail::choose_frame(cells[0], cells, PathSamples(photons));
     CHECK(!cells[0].has_frame);
 }
+
+} // namespace nephroid::tests::group_frames_test

@@ -9,7 +9,8 @@
 #include <limits>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::path_derivatives_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 using tests::Space;
@@ -266,3 +267,5 @@ TEST_CASE("path derivatives: under a ball of glass they converge to central diff
     }
 }
 #endif
+
+} // namespace nephroid::tests::path_derivatives_test

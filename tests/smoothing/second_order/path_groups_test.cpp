@@ -10,7 +10,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::path_groups_test {
+
 using namespace nephroid::detail;
 using tests::affine;
 using tests::Draws;
@@ -118,3 +119,5 @@ TEST_CASE("path groups: any number of threads finds the same groups") {
             REQUIRE(again.is_next_to_border(i) == serial.is_next_to_border(i));
     }
 }
+
+} // namespace nephroid::tests::path_groups_test

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <string>
 
-using namespace nephroid;
+namespace nephroid::tests::policies_test {
 
 namespace {
 
@@ -78,3 +78,5 @@ TEST_CASE("second-order policy: from 80000 photons on the largest footprint is a
     CHECK(bounds_for(bounds, 320000).least_radius == 3);
     CHECK(bounds_for(bounds, 320000).stretch == 5);
 }
+
+} // namespace nephroid::tests::policies_test

@@ -7,7 +7,8 @@
 
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::roughness_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 
@@ -78,3 +79,5 @@ TEST_CASE("roughness: each jump counts for at most the limit") {
     photons[0].at = photons[1].at; // no distance to speak of
     CHECK(roughness(photons) <= 0.15);
 }
+
+} // namespace nephroid::tests::roughness_test

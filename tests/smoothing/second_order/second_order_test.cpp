@@ -15,7 +15,8 @@
 #include <optional>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::second_order_test {
+
 using namespace nephroid::detail;
 using tests::affine;
 using tests::halton;
@@ -341,3 +342,5 @@ TEST_CASE("second order: each light has its own field whatever its index") {
         CHECK(c.deposit->d_position == d.deposit->d_position);
     }
 }
+
+} // namespace nephroid::tests::second_order_test

@@ -8,7 +8,8 @@
 #include <cmath>
 #include <limits>
 
-using namespace nephroid;
+namespace nephroid::tests::smoothing_rule_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 
@@ -142,3 +143,5 @@ TEST_CASE("smoothing rule: a bound along a direction sets the radius there and k
     }
     check_close(bounded_along({100, 0, 400}, {1, 0}, 3), {9, 0, 400}, 1e-12);
 }
+
+} // namespace nephroid::tests::smoothing_rule_test

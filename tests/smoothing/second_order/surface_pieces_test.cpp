@@ -10,7 +10,8 @@
 #include <cmath>
 #include <vector>
 
-using namespace nephroid;
+namespace nephroid::tests::surface_pieces_test {
+
 using namespace nephroid::detail;
 
 namespace {
@@ -92,3 +93,5 @@ TEST_CASE("surface pieces: another point is known by its neighbours or not at al
     CHECK(pieces.piece_about({{0.2, 0.5, 0.25}, up}) == Pieces::unknown);
     CHECK(pieces.piece_about({{0.7, 0.5, 0}, {0, 0, -1}}) == Pieces::unknown);
 }
+
+} // namespace nephroid::tests::surface_pieces_test

@@ -7,7 +7,8 @@
 
 #include <cmath>
 
-using namespace nephroid;
+namespace nephroid::tests::varying_shape_test {
+
 using namespace nephroid::detail;
 using tests::Draws;
 
@@ -58,3 +59,5 @@ TEST_CASE("varying shape: a distant bound changes nothing") {
     CHECK((shape.value.xx == 9 && shape.value.xy == 1 && shape.value.yy == 4));
     CHECK((shape.along_u.xx == 1 && shape.along_v.yy == 6));
 }
+
+} // namespace nephroid::tests::varying_shape_test
