@@ -55,9 +55,7 @@ struct Vector {
     friend Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
     friend Vector operator*(double s, Vector a) { return {s * a.x, s * a.y, s * a.z}; }
 };
-[[nodiscard]] inline double dot(Vector a, Vector b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+[[nodiscard]] inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 
 /// Snell's law for the unit direction `d`, the unit normal `n` against it, and the ratio `eta` of the indices before
 /// and behind; multiplies `flux` by the unpolarised transmittance, written with the refracted angle (not as in

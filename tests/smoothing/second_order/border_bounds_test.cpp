@@ -12,6 +12,8 @@
 
 namespace nephroid::tests::border_bounds_test {
 
+using namespace fields;
+
 using namespace nephroid::detail;
 
 TEST_CASE("border bounds: footprints reach to the border of the domain and no further") {

@@ -14,7 +14,7 @@
 #include <optional>
 #include <vector>
 
-namespace nephroid::tests {
+namespace nephroid::tests::fields {
 
 using namespace detail;
 
@@ -89,4 +89,4 @@ struct TwoGroups {
     }
 };
 
-} // namespace nephroid::tests
+} // namespace nephroid::tests::fields

@@ -9,6 +9,8 @@
 
 namespace nephroid::tests::group_borders_test {
 
+using namespace fields;
+
 using namespace nephroid::detail;
 
 // The outermost photons on the left are at column 30 of 0 to 62, on the right at column 31: borders are laid there.

@@ -11,6 +11,8 @@
 
 namespace nephroid::tests::group_field_test {
 
+using namespace fields;
+
 using namespace nephroid::detail;
 
 // The radius is the largest there is, 32: borders are felt from 2.9 times that on, and half of the domain is 167 units.

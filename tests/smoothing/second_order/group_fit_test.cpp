@@ -10,6 +10,8 @@
 
 namespace nephroid::tests::group_fit_test {
 
+using namespace fields;
+
 using namespace nephroid::detail;
 
 TEST_CASE("group fit: a quadratic map's second derivatives are the same everywhere") {
