@@ -4,6 +4,7 @@
 #include "common/eye_paths.hpp"
 #include "common/lamps.hpp"
 #include "examples/worlds.hpp"
+#include "support/is_sanitized.hpp"
 
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/sequence/halton.hpp"
@@ -52,7 +53,8 @@ S table_under(const std::vector<Sheet>& sheets, const M& glass) {
 struct Landed {
     double flux = 0, x_mean = 0;
 };
-Landed land(const S& scene, double angle, std::uint64_t count = 200'000) {
+constexpr std::uint64_t count = tests::is_sanitized ? 10'000 : 200'000;
+Landed land(const S& scene, double angle) {
     Landed landed;
     const V direction(std::sin(angle), 0, -std::cos(angle));
     nephroid::Statistics account;
@@ -75,7 +77,7 @@ Landed land(const S& scene, double angle, std::uint64_t count = 200'000) {
 }
 
 /// Five standard errors of a share of so many independent photons; Halton's are better.
-double statistics(double share, double count = 200'000) { return 5 * std::sqrt(share * (1 - share) / count); }
+double statistics(double share) { return 5 * std::sqrt(share * (1 - share) / double(count)); }
 
 } // namespace
 
