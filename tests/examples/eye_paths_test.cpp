@@ -122,6 +122,30 @@ TEST_CASE_TEMPLATE("eye paths: into water the weight falls with the square of th
           16 * std::numeric_limits<T>::epsilon());
 }
 
+// The first leg too runs through water: exp(-0.5 d) of the floor's light arrives over the distance d.
+TEST_CASE_TEMPLATE("eye paths: a camera under water sees through water from its first leg on", T, float, double) {
+    Colors<T> water = Colors<T>::dielectric(1.33);
+    water.absorption = Vec3<T>(T(0.5));
+    const auto weight_from = [&](T height, const MeshData<T>& surface) {
+        const Scene<T> scene({{TriangleMesh<T>(surface), 0}, {Floor<T>(0), 0}},
+                             {Colors<T>::diffuse(Vec3<T>(1)), water});
+        const auto camera =
+            Camera<T>::orthographic({{T(0.1), T(0.2), height}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, T(0.01), 1, 1);
+        return T(std::numbers::pi) * sum_of_weights(trace_eye_paths(scene, camera, {}, SerialExecutor{}));
+    };
+    // The faces of the globe are flat: up to 1 - cos(pi / 32) below its radius, so 0.8 is inside.
+    MeshData<T> drop = globe<T>(32);
+    drop.materials.assign(drop.triangles.size(), 1);
+    for (const T height : {T(0.25), T(0.8)}) {
+        const T expected = std::exp(T(-0.5) * height), rounding = 64 * std::numeric_limits<T>::epsilon();
+        CHECK(std::abs(weight_from(height, sheet<T>(5, 1, true, 1)) - expected) < rounding);
+        CHECK(std::abs(weight_from(height, drop) - expected) < rounding);
+    }
+    // From above it loses what is reflected, and n squared, and light along the water alone.
+    const T passed = T((1 - (0.33 / 2.33) * (0.33 / 2.33)) / (1.33 * 1.33)) * std::exp(T(-0.5));
+    CHECK(std::abs(weight_from(T(3), sheet<T>(5, 1, true, 1)) - passed) < 1000 * std::numeric_limits<T>::epsilon());
+}
+
 TEST_CASE_TEMPLATE("eye paths: mirrors and metals reflect to what is behind the camera", T, float, double) {
     const Vec3<T> color(T(0.3), T(0.6), T(0.9));
     const Scene<T> mirror({{TriangleMesh<T>(sheet<T>(5, 0, true, 1)), 0}, {Floor<T>(20), 0}},
