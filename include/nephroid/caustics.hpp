@@ -6,6 +6,7 @@
 #include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/smoothing/splat_to_second_order.hpp"
 #include "nephroid/splat/splat_caustics.hpp"
+#include "nephroid/version.hpp"
 
 namespace nephroid {
 

@@ -2,7 +2,7 @@
 /// @file  The domain that a light emits from: what places a photon in it, where its map is smooth, where it ends.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// @file  A counting sort that several threads share: stable, and the same to the bit whoever runs it.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <cstddef>
 #include <span>

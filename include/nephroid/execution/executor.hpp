@@ -2,7 +2,7 @@
 /// @file  What an executor is: who runs the work, the calling thread or a pool, the renderer's or ours.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <algorithm>
 #include <concepts>

@@ -2,7 +2,7 @@
 /// @file  Mixes and reverses the bits of a 64-bit word, and turns them into a number in [0, 1).
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <algorithm>
 #include <concepts>

@@ -2,7 +2,7 @@
 /// @file  Where all the light went: every unit of emitted flux, by reason.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <array>
 #include <cstddef>

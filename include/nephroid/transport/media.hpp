@@ -2,7 +2,7 @@
 /// @file  Media within media: which one a place is in, and what a surface between them is to light.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <array>
 #include <cstddef>

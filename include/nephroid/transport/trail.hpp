@@ -2,7 +2,7 @@
 /// @file  What is noted of a path on its way: nothing, or a signature of the surfaces that it met.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <concepts>
 #include <cstdint>

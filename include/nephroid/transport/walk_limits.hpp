@@ -2,7 +2,7 @@
 /// @file  Bounds on a photon's path.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 namespace nephroid {
 

@@ -2,7 +2,7 @@
 /// @file  How the library reports a wrong call: one place, with and without exceptions.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <cstdlib>
 #include <string>

@@ -2,7 +2,7 @@
 /// @file  Makes objects in place, without a copy.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <type_traits>
 

@@ -2,7 +2,7 @@
 /// @file  Weighted linear least squares with a few unknowns.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <array>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// @file  Vectors and matrices of the plane, in double precision: what shapes a footprint.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 /// @file  What a scalar is, and the mathematical functions that the library calls on one.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <bit>
 #include <cmath>

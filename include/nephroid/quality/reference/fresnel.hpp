@@ -3,7 +3,7 @@
 ///        own, so that they share no formula with what they check.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 /// @file  Gauss-Legendre quadrature and Chebyshev interpolation, for functions that are analytic on their interval.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <array>
 #include <cmath>

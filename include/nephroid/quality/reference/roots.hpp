@@ -2,7 +2,7 @@
 /// @file  Roots of functions of one variable: one in a bracket, and all in an interval.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <algorithm>
 #include <cmath>

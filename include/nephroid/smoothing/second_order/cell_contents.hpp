@@ -2,7 +2,7 @@
 /// @file  The photons in each cell of a grid, found by a counting sort.
 #pragma once
 
-#include "nephroid/version.hpp"
+#include "nephroid/vector/language.hpp"
 
 #include <cstddef>
 #include <cstdint>
