@@ -86,7 +86,7 @@ void trace_node(const S& scene, const EmissionChart<V, F>& chart, scalar_t<V> u,
         ends.push_back({deposit.position - origin, deposit.normal, deposit.direction, deposit.flux, signature});
     };
     Photon<V, F, 0> photon{emitted->position, emitted->direction, emitted->flux, {}};
-    if constexpr (TellsAllWays<S, V>) {
+    if constexpr (ScattersDeterministically<S, V>) {
         walk(scene, std::move(photon), sampler, limits, one, EndsOfAllWays<V, F, decltype(land)>{land});
     } else {
         WalkLimits without_roulette = limits;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where all the light went: every unit of emitted flux, by reason.
+/// @file  The account of a pass: every unit of emitted flux under one fate.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -15,9 +15,9 @@ enum class Fate : unsigned char {
     splatted,   ///< onto leaves of the eye path map that the footprint may reach and that may face the photon
     unseen,     ///< on a diffuse surface, but nowhere near eye path vertices on the photon's side
     direct,     ///< on a diffuse surface without having met a specular one: direct light, not a caustic
-    absorbed,   ///< by surfaces and media, or reflected where only refraction is followed
+    absorbed,   ///< by surfaces and media, or not followed by the scene's `scatter`
     escaped,    ///< out of the scene
-    terminated, ///< at the bound on a path's length, or by Russian roulette (net of what survivors gain)
+    terminated, ///< at the bound on a path's length, or by Russian roulette (minus what survivors gain)
     collapsed,  ///< discarded by the collapse policy
     excessive,  ///< discarded by the excess policy
     invalid,    ///< a number on the path was not finite, or the last ray ran parallel to its surface
@@ -28,11 +28,11 @@ inline constexpr std::array<const char*, fate_count> fate_names = {
     "splatted", "unseen", "direct", "absorbed", "escaped", "terminated", "collapsed", "excessive", "invalid"};
 
 /// A number of photons and their flux, in the unit of flux_traits<F>::power. The flux is a compensated sum [Kahan
-/// 1965]: after 10⁹ photons it is as exact as after one (but under -ffast-math, which drops the compensation).
+/// 1965], as exact after 10⁹ photons as after one (except with -ffast-math, which drops the compensation).
 struct Tally {
     std::uint64_t photons = 0;
     double flux = 0;
-    double excess = 0; ///< what rounding has put into `flux` too much
+    double excess = 0; ///< by how much rounding has made `flux` too large
 
     void add(double more) {
         const double exact = more - excess, sum = flux + exact;
@@ -48,27 +48,27 @@ struct Tally {
     }
 };
 
-/// What every pass returns. Flux is never lost silently: `emitted.flux` is the sum of `[fate].flux` over all fates
-/// to the rounding of double.
+/// The result of every pass. No flux is lost silently: `emitted.flux` is the sum of `[fate].flux` over all fates, to
+/// the rounding of double.
 struct Statistics {
     Tally emitted;
     std::array<Tally, fate_count> fates{};
     std::uint64_t rays = 0;            ///< traced
     std::uint64_t specular_events = 0; ///< reflections and refractions
-    std::uint64_t branches = 0;        ///< ways more than one for each photon, where all ways are followed: of so many
-                                       ///< photons more than were emitted the fates tell
-    std::uint64_t corrected_normals = 0; ///< events that used the geometric normal, as the shading one sent the ray
-                                         ///< through the wrong side of the surface
-    std::uint64_t hits_at_start = 0;  ///< surfaces met where the ray began: another one touches the one it left, or the
-                                      ///< renderer found that one again
+    std::uint64_t branches = 0;        ///< additional ways, if all ways are followed: the fates count this many photons
+                                       ///< more than were emitted
+    std::uint64_t corrected_normals = 0; ///< events that used the geometric normal, because the shading normal sent the
+                                         ///< ray to the wrong side of the surface
+    std::uint64_t hits_at_start = 0;  ///< surfaces met at the ray's origin: a surface that touches the one left, or the
+                                      ///< same surface again
     std::uint64_t opaque_first = 0;   ///< photons whose first surface was neither a mirror nor glass
     std::uint64_t escaped_first = 0;  ///< photons that met no surface at all
-    std::uint64_t bounded_shifts = 0; ///< of second-order splats, shortened
-    std::uint64_t bounded_footprints = 0; ///< made smaller by the excess policy, or larger by the collapse policy
+    std::uint64_t bounded_shifts = 0; ///< shifts of second-order splats that were shortened
+    std::uint64_t bounded_footprints = 0; ///< footprints that the excess or the collapse policy changed
 
     [[nodiscard]] const Tally& operator[](Fate fate) const { return fates[std::size_t(fate)]; }
 
-    /// Photons that reached a diffuse surface through a specular one: n as the papers count it.
+    /// Photons that reached a diffuse surface by way of a specular one: the papers' n.
     [[nodiscard]] std::uint64_t caustic_photons() const {
         return (*this)[Fate::splatted].photons + (*this)[Fate::unseen].photons + (*this)[Fate::collapsed].photons +
                (*this)[Fate::excessive].photons;
@@ -81,14 +81,14 @@ struct Statistics {
         return sum;
     }
 
-    /// One photon ends with this flux.
+    /// Books the end of a photon that carries this flux.
     void end(Fate fate, double flux) {
         Tally& tally = fates[std::size_t(fate)];
         ++tally.photons;
         tally.add(flux);
     }
 
-    /// A photon that goes on loses this flux.
+    /// Books flux that a photon loses while it goes on.
     void lose(Fate fate, double flux) { fates[std::size_t(fate)].add(flux); }
 
     Statistics& operator+=(const Statistics& other) {

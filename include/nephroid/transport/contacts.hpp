@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Surfaces that touch: glass on a table, water in a glass. A ray that leaves one of them begins on all, and
-///        must meet those that it has not come through yet, and no other.
+/// @file  Surfaces that touch: glass on a table, water in a glass. A ray that leaves one of them begins on all of them,
+///        and must meet exactly those that it has not passed yet.
 #pragma once
 
 #include "nephroid/transport/hit.hpp"
@@ -14,12 +14,13 @@
 
 namespace nephroid {
 
-/// What a ray leaves out, told to scenes that ask for it: `scene.intersect(origin, direction, t_min, t_max, contacts)`
-/// with hits that have a `primitive`, a number of their triangle or shape. The ray then begins on the surface that it
-/// leaves, instead of a little off it, and t_min is a little below 0. The scene asks for each candidate, and takes the
-/// nearest of those that are not left out. Of two that are equally far, to rounding, it should take the one whose
-/// inside the ray enters first, then one whose inside it leaves, and what is opaque last: then no air is between water
-/// and its glass (with Media, transport/media.hpp), and light comes out of the glass before it falls onto the table.
+/// Says which primitives a ray leaves out, for scenes with `intersect(origin, direction, t_min, t_max, contacts)` whose
+/// hits have a `primitive`, the number of their triangle or shape. The ray then begins on the surface that it leaves
+/// instead of a little off it, and t_min is a little below 0. The scene calls `leave_out` for each candidate, and
+/// returns the nearest one that is not left out. Among candidates at the same distance, to rounding, it should prefer a
+/// surface where the ray enters an object, then one where it leaves an object, and an opaque surface last. Then there
+/// is no air between water and its glass (with Media, transport/media.hpp), and light leaves a glass before it falls
+/// onto the table.
 ///
 /// ```cpp
 /// if (t > t_min && t < nearest && !contacts.leave_out(triangle, t, dot(direction, normal)))
@@ -29,28 +30,28 @@ template <Scalar T>
 class Contacts {
 public:
     /// @param primitive  of the candidate
-    /// @param distance   along the ray, less than 0 as well
-    /// @param cosine     between the ray's direction and the candidate's geometric normal, of either sign; only as
-    ///                   exact as is needed to tell its sign, and how steeply the ray meets the surface
+    /// @param distance   along the ray; may be negative
+    /// @param cosine     between the ray's direction and the candidate's geometric normal, of either sign; it may be
+    ///                   rough, as only its sign and the steepness of the ray matter
     [[nodiscard]] bool leave_out(std::uint64_t primitive, T distance, T cosine) const {
-        if (!is_here(distance, cosine)) // a flat surface is never met again; a curved one only from its other side
+        if (!is_here(distance, cosine)) // a ray cannot meet a flat surface twice, and a curved one only from behind
             return !(distance > T(0)) || (begins_on_surface_ && primitive == left_ && (cosine > T(0)) == along_normal_);
         return primitive == left_ || has_crossed(primitive) == forwards_;
     }
 
-    /// Whether `leave_out` has to be asked at all, which spares the cosine. For curved shapes with a search of their
-    /// own: it may begin at `reach()` on the one that was left, and then finds it again at low angles only.
+    /// Whether `leave_out` may return true; computed without the cosine. A curved shape with a search of its own may
+    /// begin the search at `reach()` if the ray leaves this shape; it is then found again at low angles only.
     [[nodiscard]] bool may_leave_out(std::uint64_t primitive, T distance) const {
         return distance <= reach_ || (begins_on_surface_ && primitive == left_);
     }
     [[nodiscard]] bool was_left(std::uint64_t primitive) const { return begins_on_surface_ && primitive == left_; }
 
-    /// The least distance that counts.
+    /// The least distance at which hits count.
     [[nodiscard]] T t_min() const { return -reach_; }
-    /// What is not nearer than this does not touch the surface that was left.
+    /// Surfaces at this distance or further do not touch the surface that was left.
     [[nodiscard]] T reach() const { return reach_; }
 
-    /// Whether a hit lies where the ray begins: on one of the surfaces that touch.
+    /// Whether a hit lies at the ray's origin, on one of the surfaces that touch there.
     [[nodiscard]] bool is_here(T distance, T cosine) const {
         return begins_on_surface_ && abs(distance * cosine) <= height_ && abs(distance) <= reach_;
     }
@@ -58,9 +59,9 @@ public:
     /// The ray leaves a surface.
     ///
     /// @param cosine   between its new direction and the surface's geometric normal
-    /// @param height   how far from one another surfaces may be that touch, > 0
-    /// @param passed   it goes on through the surface
-    /// @param is_here  the surface is one of those that the ray began on
+    /// @param height   the largest distance between surfaces that touch, > 0
+    /// @param passed   whether the ray goes on through the surface
+    /// @param is_here  whether the surface is one of those on which the previous ray began
     void leave(std::uint64_t primitive, T cosine, T height, bool passed, bool is_here) {
         if (!is_here || !begins_on_surface_) {
             count_ = 0;
@@ -79,7 +80,7 @@ public:
         reach_ = height / (std::max)(T(abs(cosine)), T(1) / T(16));
     }
 
-    /// A triangle beside the one that was left, of the same surface: the ray has come through it as well.
+    /// The ray also came through a neighbouring triangle of the surface that was left.
     void leave_beside(std::uint64_t primitive) {
         if (forwards_)
             add(primitive);
@@ -104,15 +105,15 @@ private:
         count_ = std::remove(crossed_.begin(), end, primitive) - crossed_.begin();
     }
 
-    std::array<std::uint64_t, 8> crossed_{}; ///< on the way that the ray arrived on
+    std::array<std::uint64_t, 8> crossed_{}; ///< primitives passed since the ray arrived at the surfaces that touch
     std::ptrdiff_t count_ = 0;
     std::uint64_t left_ = 0;
     T height_ = T(0), reach_ = T(0);
-    bool forwards_ = true; ///< on the side of the surfaces that the ray went to, not back where it came from
+    bool forwards_ = true; ///< whether the ray goes on beyond these surfaces, or back to where it came from
     bool along_normal_ = false, begins_on_surface_ = false;
 };
 
-/// Optional: the scene leaves out primitives, and so lets surfaces touch (Contacts).
+/// Optional: the scene can leave out primitives, so that surfaces may touch (Contacts).
 template <class S, class V>
 concept LetsSurfacesTouch = requires(const S& scene, const V& v, scalar_t<V> t, const Contacts<scalar_t<V>>& contacts) {
     {bool(scene.intersect(v, v, t, t, contacts))};
@@ -120,16 +121,16 @@ concept LetsSurfacesTouch = requires(const S& scene, const V& v, scalar_t<V> t, 
 };
 
 namespace detail {
-/// What a photon carries to know where its ray begins.
+/// What RayStart keeps of the surfaces at a ray's origin.
 template <Scalar T>
 struct Contact {
     Contacts<T> surfaces;
-    std::uint64_t left = 0; ///< the surface that was left last, by its name
+    std::uint64_t left = 0; ///< `surface` of the hit that was left last
 
     [[nodiscard]] bool begins_on_surface() const { return surfaces.begins_on_surface(); }
 };
 
-/// Where surfaces may not touch.
+/// In place of Contact, if surfaces may not touch.
 struct NoContact {
     [[nodiscard]] static constexpr bool begins_on_surface() { return false; }
 };

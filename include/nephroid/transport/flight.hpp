@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A photon's straight way from one surface, or its lamp, to the next.
+/// @file  A flight: the straight segment of a photon's path from its lamp or a surface to the next surface.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"
@@ -11,7 +11,7 @@
 
 namespace nephroid {
 
-/// A flight, and what the photon carries along it.
+/// A flight, with the flux and the tangents that the photon carries.
 ///
 /// @tparam N  tangents
 template <Vector3 V, Flux F, std::size_t N = 2>
@@ -21,7 +21,7 @@ struct Flight {
     V origin;                          ///< on the surface that the photon left, or at the lamp
     V direction;                       ///< unit
     T distance;                        ///< to the next surface, world units; infinite where the photon leaves the scene
-    F flux;                            ///< at the origin: what a medium absorbs on the way is still in it
+    F flux;                            ///< at the origin, before a medium absorbs any of it
     PhotonDifferential<V, N> tangents; ///< at the origin
     std::optional<V> origin_normal;    ///< geometric, unit, on the side that the photon left to; nothing at a lamp
     std::optional<V> end_normal;       ///< geometric, unit, on the side that the photon arrives from; nothing where it
@@ -36,7 +36,7 @@ struct Flight {
 
 namespace detail {
 
-/// Where a flight began: on a surface, or at a lamp, which has no normal.
+/// Where a flight begins: on a surface, or at a lamp, which has no normal.
 template <Vector3 V>
 struct Departure {
     V position;
@@ -51,6 +51,7 @@ struct Departure {
                 end_normal, path.specular_events, path.bounces};
     }
 };
+/// In place of Departure, if the visitor does not ask for flights.
 struct NoDeparture {};
 
 } // namespace detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Media within media: which one a place is in, and what a surface between them is to light.
+/// @file  Media inside of media: which of them fills a point, and which of their surfaces light notices.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -10,9 +10,9 @@
 
 namespace nephroid {
 
-/// The media that a place lies in, by value. Where several overlap, the one of the highest priority is the one that is
-/// there, so that a glass may be modelled through the water that touches it; of those of equal priority, the one that
-/// was entered last, as bodies within others are. A scene's `medium` may be this:
+/// The media that contain a point. Where several overlap, the one with the highest priority fills the point, so that a
+/// model of water may extend into the glass around it. Among media of equal priority the one entered last does, as for
+/// bodies inside of others. A value type; a scene's `medium` may be this:
 ///
 /// ```cpp
 /// struct Adapter {
@@ -35,12 +35,12 @@ namespace nephroid {
 class Media {
 public:
     static constexpr std::int32_t none = -1; ///< no medium: air
-    static constexpr std::size_t most = 8;   ///< at a place; what is more is not known
+    static constexpr std::size_t most = 8;   ///< at one point; further ones are ignored
 
-    /// What a surface is to light that comes to it.
+    /// The media on both sides of a surface.
     struct Surface;
 
-    /// The medium that is there.
+    /// The medium that fills the point.
     [[nodiscard]] constexpr std::int32_t here() const { return count_ > 0 ? entries_[0].medium : none; }
 
     [[nodiscard]] constexpr bool has(std::int32_t medium) const {
@@ -59,7 +59,7 @@ public:
         entries_[i] = {medium, priority};
     }
 
-    /// @return  whether it was there
+    /// @return  whether the point was in the medium
     constexpr bool leave(std::int32_t medium) {
         for (std::size_t i = 0; i < count_; ++i)
             if (entries_[i].medium == medium) {
@@ -70,9 +70,9 @@ public:
         return false;
     }
 
-    /// @param medium   that the surface bounds
-    /// @param enters   whether the light comes from its outside. Light that leaves a medium that nobody knew of came
-    ///                 from it
+    /// @param medium   bounded by the surface
+    /// @param enters   whether the light arrives from outside of it. Light that leaves a medium not known here is taken
+    ///                 to have come from that medium
     [[nodiscard]] constexpr Surface at_surface_of(std::int32_t medium, std::int32_t priority, bool enters) const;
 
     friend constexpr bool operator==(const Media& a, const Media& b) {
@@ -88,15 +88,15 @@ private:
     };
     [[nodiscard]] constexpr std::int32_t medium(std::size_t i) const { return i < count_ ? entries_[i].medium : none; }
 
-    std::array<Entry, most> entries_{}; // the first is the one that is there
+    std::array<Entry, most> entries_{}; // the first one fills the point
     std::size_t count_ = 0;
 };
 
 struct Media::Surface {
     std::int32_t before, after; ///< the media on both sides, or none
-    Media beyond;               ///< what the light is in if it goes on through the surface
+    Media beyond;               ///< the media of light that has passed the surface
 
-    /// Else light does not notice it: another medium is on both of its sides.
+    /// Whether light notices the surface. It does not where the same medium fills both sides.
     [[nodiscard]] constexpr bool is_real() const { return before != after; }
 };
 

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
-/// @file  The steps of a photon's walk: to a surface, off it, and what each does to the photon and its account.
+/// @file  The steps of a photon's walk: to a surface, off it again, and what each step changes in the photon and in the
+///        account.
 #pragma once
 
 #include "nephroid/differential/transfer.hpp"
 #include "nephroid/emission/photon.hpp"
 #include "nephroid/transport/account.hpp"
-#include "nephroid/transport/bend.hpp"
 #include "nephroid/transport/deposit.hpp"
 #include "nephroid/transport/ray_start.hpp"
-#include "nephroid/transport/sound_values.hpp"
+#include "nephroid/transport/turn.hpp"
+#include "nephroid/transport/value_checks.hpp"
 
 #include <cstddef>
 #include <utility>
@@ -38,7 +39,7 @@ public:
             ray_start_.begin(scene_, photon_);
             return true;
         }
-        // A light may emit nothing in a direction; what is no number at all has no place in a sum.
+        // A light may emit nothing in a direction. A flux that is not finite is never added to a sum.
         account_.end(emitted_power_ == 0 ? Fate::absorbed : Fate::invalid, 0);
         return false;
     }
@@ -66,7 +67,7 @@ public:
         const T flown = (std::max)(distance - skipped_by_tracer<V>(scene_), T(0)); // less by rounding
         ray_start_.arrive(hit, photon_, flown);
         if constexpr (Absorbs<S, V>)
-            return weigh(scene_.transmittance(medium_, flown));
+            return scale_flux(scene_.transmittance(medium_, flown));
         else
             return true;
     }
@@ -82,9 +83,9 @@ public:
         (std::make_index_sequence<N>());
     }
 
-    /// Multiplies the flux; what that takes is absorbed.
+    /// Multiplies the flux, and books the loss as absorbed.
     template <class Weight>
-    [[nodiscard]] bool weigh(const Weight& weight) {
+    [[nodiscard]] bool scale_flux(const Weight& weight) {
         const F weighted = photon_.flux * weight;
         const double before = power(photon_.flux), after = power(weighted);
         if (!isfinite(after) || has_negative_band(weighted))
@@ -97,30 +98,31 @@ public:
     /// Reflects or refracts the photon, about the geometric normal where the shading normal would send it through the
     /// wrong side.
     template <class Scattering>
-    [[nodiscard]] bool bend(const H& hit, const Scattering& scattering) {
+    [[nodiscard]] bool turn(const H& hit, const Scattering& scattering) {
         const V geometric_normal = facing_normal(hit);
         V shading_normal = geometric_normal;
         if constexpr (HasShadingNormal<H, V>)
-            shading_normal = facing(hit) * V(hit.shading_normal);
-        if (!is_unit(shading_normal) || !has_index<T>(scattering))
+            shading_normal = sign_of(hit) * V(hit.shading_normal);
+        if (!is_unit(shading_normal) || !has_valid_index<T>(scattering))
             return end(Fate::invalid);
-        if (!bend_about(photon_, medium_, shading_normal, geometric_normal, hit, scattering)) {
+        if (!turn_about(photon_, medium_, shading_normal, geometric_normal, hit, scattering)) {
             ++account_.corrected_normals;
-            if (!bend_about(photon_, medium_, geometric_normal, geometric_normal, hit, scattering))
+            if (!turn_about(photon_, medium_, geometric_normal, geometric_normal, hit, scattering))
                 return end(Fate::invalid);
         }
         ++account_.specular_events;
         return true;
     }
 
-    /// Into what lies behind a surface that light does not notice.
+    /// Enters the medium behind a surface that light does not notice.
     template <class Scattering>
-    void enter([[maybe_unused]] const Scattering& scattering) {
+    void enter_medium([[maybe_unused]] const Scattering& scattering) {
         if constexpr (requires { medium_ = scattering.medium; })
             medium_ = scattering.medium;
     }
 
-    /// Ends the photon with the probability that its flux has fallen to; else it carries on for those that ended.
+    /// Russian roulette: the photon survives with a probability equal to its flux over the emitted one, and then gets
+    /// the emitted flux back.
     template <class Sampler>
     [[nodiscard]] bool survives_roulette(Sampler& sampler) {
         const double survival = power(photon_.flux) / emitted_power_;
@@ -147,12 +149,12 @@ public:
 
     /// Begins the next ray, on the side of the surface that it leaves to.
     ///
-    /// @param passed  whether it goes on through the surface
+    /// @param passed  whether the photon goes on through the surface
     void leave(const H& hit, bool passed) { ray_start_.leave(scene_, hit, passed, photon_); }
 
-    /// Where the ray began that came here, and what it will leave out.
+    /// Where the ray to this surface began, and which surfaces the next ray leaves out.
     [[nodiscard]] const Start& ray_start() const { return ray_start_; }
-    /// Whether the hit is to be left out: see RayStart.
+    /// Whether the hit has to be left out, see `RayStart::is_on_edge`.
     [[nodiscard]] bool is_on_edge(const H& hit) { return ray_start_.is_on_edge(hit, photon_.direction); }
 
     bool end(Fate fate) {
@@ -162,18 +164,18 @@ public:
 
     [[nodiscard]] const Photon<V, F, N>& photon() const { return photon_; }
     [[nodiscard]] const Medium& medium() const { return medium_; }
-    /// Goes on with another photon, on the surface where this one is.
-    void become(const Photon<V, F, N>& photon, const Medium& medium) {
+    /// Replaces the photon by another one on the same surface.
+    void continue_as(const Photon<V, F, N>& photon, const Medium& medium) {
         photon_ = photon;
         medium_ = medium;
     }
-    /// On another surface, where a way waited.
-    void become(const Photon<V, F, N>& photon, const Medium& medium, const Start& ray_start) {
-        become(photon, medium);
+    /// Replaces the photon by one on another surface, where a way was pending.
+    void continue_as(const Photon<V, F, N>& photon, const Medium& medium, const Start& ray_start) {
+        continue_as(photon, medium);
         ray_start_ = ray_start;
     }
-    /// The photon carries this much from here on: whoever calls this books the rest.
-    void carry(const F& flux) { photon_.flux = flux; }
+    /// Sets the photon's flux; the caller books the difference.
+    void set_flux(const F& flux) { photon_.flux = flux; }
 
     /// Whether the photon flies against the hit's geometric normal.
     [[nodiscard]] bool is_in_front_of(const H& hit) const {
@@ -181,15 +183,15 @@ public:
     }
 
     /// The geometric normal, on the side that the photon is on.
-    [[nodiscard]] V facing_normal(const H& hit) const { return facing(hit) * V(hit.geometric_normal); }
+    [[nodiscard]] V facing_normal(const H& hit) const { return sign_of(hit) * V(hit.geometric_normal); }
     [[nodiscard]] static double power(const F& flux) { return double(flux_traits<F>::power(flux)); }
 
 private:
-    [[nodiscard]] T facing(const H& hit) const { return facing_sign(photon_.direction, hit); }
+    [[nodiscard]] T sign_of(const H& hit) const { return facing_sign(photon_.direction, hit); }
 
     const S& scene_;
     Statistics& account_;
-    Photon<V, F, N>& photon_; // the caller's own: copied here, its first flight would wait for it
+    Photon<V, F, N>& photon_; // the caller's: a copy made here would delay the first flight
     double emitted_power_;
     Start ray_start_{};
     [[no_unique_address]] Medium medium_{};

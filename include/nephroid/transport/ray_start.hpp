@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where a ray begins: on the surface that it leaves, or off it by no more than rounding, and back by what the
+/// @file  Where a ray begins: on the surface that it leaves or barely off it, and further back by the distance that the
 ///        tracer skips.
 #pragma once
 
@@ -12,9 +12,9 @@
 
 namespace nephroid::detail {
 
-/// How far off a surface the next ray begins, world units: twice the error, once for the point that was hit, once for
-/// the next intersection's own rounding. Coordinates are never more exact than a few units in their last place,
-/// whatever the hit says of its `position_error`; NaN where that is negative or no number.
+/// How far off a surface the next ray begins, world units: twice the hit's error, once for the hit itself and once for
+/// the rounding of the next intersection. The error is taken as at least a few units in the last place of the
+/// coordinates, whatever the hit's `position_error` is; the result is NaN if that is negative or NaN.
 ///
 /// @param position  on the surface
 template <class H, Vector3 V>
@@ -37,8 +37,8 @@ template <Vector3 V, class S>
         return scalar_t<V>(0);
 }
 
-/// Where a photon's ray begins: on the surface that it leaves if the scene leaves out what touches there (Contacts),
-/// else a little off it.
+/// Where a photon's ray begins: on the surface that it leaves if the scene can leave out surfaces that touch there
+/// (Contacts), otherwise a little off that surface.
 template <class S, Vector3 V>
 class RayStart {
 public:
@@ -49,7 +49,7 @@ public:
                   "nephroid: a scene that takes Contacts must have no tracer_epsilon, but find what lies at its rays' "
                   "start (transport/contacts.hpp)");
 
-    /// At the lamp.
+    /// Begins a ray at the lamp.
     template <class P>
     void begin(const S& scene, P& photon) {
         begin_ahead(scene, photon, T(0));
@@ -65,7 +65,8 @@ public:
             return scene.intersect(photon.position, photon.direction, T(0), endless);
     }
 
-    /// Along the ray. What touches the surface that was left is no distance away, whichever side rounding put it on.
+    /// The distance along the ray to a hit. It is not negative for surfaces that touch the one left, on whichever side
+    /// rounding puts them.
     [[nodiscard]] T distance_to(const H& hit, const V& direction) const {
         const T distance = hit.distance;
         if constexpr (surfaces_may_touch)
@@ -73,11 +74,13 @@ public:
                 return (std::max)(distance, T(0));
         return distance;
     }
-    /// From the surface that was left to a distance along the ray, which began a little ahead.
+    /// The distance from the surface that was left, for a distance along the ray, which began a little ahead.
     [[nodiscard]] T from_surface(T distance) const { return distance + ahead_; }
 
+    /// The ray ends at a hit.
+    ///
     /// @param photon  at the hit
-    /// @param flown   by it
+    /// @param flown   length of the flight, world units
     template <class P>
     void arrive(const H& hit, const P& photon, T flown) {
         const T cosine = dot(photon.direction, V(hit.geometric_normal));
@@ -88,10 +91,13 @@ public:
             }
         began_here_ = flown * abs(cosine) <= T(2) * ray_clearance(hit, photon.position);
     }
-    /// Whether the surface that the photon is at is where its ray began, as far as numbers can tell.
+    /// Whether the photon's surface lies where its ray began, to rounding.
     [[nodiscard]] bool began_here() const { return began_here_; }
 
-    /// @param photon  at the hit, its direction that of the next ray
+    /// Begins the next ray.
+    ///
+    /// @param photon  at the hit, with the direction of the next ray
+    /// @param passed  whether it goes on through the surface
     template <class P>
     void leave(const S& scene, const H& hit, [[maybe_unused]] bool passed, P& photon) {
         const V normal = hit.geometric_normal;
@@ -105,7 +111,7 @@ public:
             photon.position = scene.spawn(hit, photon.direction);
             begin_ahead(scene, photon, T(0));
         } else {
-            // Along the ray, which so stays on its line, and only for what is left at low angles along the normal.
+            // Along the ray, so that it keeps its line. At low angles that would be far: the rest is along the normal.
             const T height = ray_clearance(hit, photon.position);
             const T along = steepness > T(0.5) ? height / steepness : T(2) * height;
             const T rest = (std::max)(T(0), height - along * steepness);
@@ -114,8 +120,8 @@ public:
         }
     }
 
-    /// Whether the hit is a triangle beside the one that was left, of the same surface: the photon came through their
-    /// edge, and the other one is left out from now on.
+    /// Whether the hit is on a neighbouring triangle of the surface that was left. The photon then came through the
+    /// edge between the two, and this triangle is left out from now on.
     [[nodiscard]] bool is_on_edge([[maybe_unused]] const H& hit, [[maybe_unused]] const V& direction) {
         if constexpr (surfaces_may_touch && requires { hit.surface; }) {
             const T cosine = dot(direction, V(hit.geometric_normal));
@@ -131,7 +137,7 @@ public:
     }
 
 private:
-    /// @param ahead  how far along its line from the surface the photon was put
+    /// @param ahead  how far the photon was moved from the surface, along its line
     template <class P>
     void begin_ahead(const S& scene, P& photon, T ahead) {
         ahead_ = ahead - skipped_by_tracer<V>(scene);
@@ -139,7 +145,7 @@ private:
             photon.position = photon.position - skipped_by_tracer<V>(scene) * photon.direction;
     }
 
-    T ahead_ = T(0); ///< how far ahead of the surface that the photon left its ray began
+    T ahead_ = T(0); ///< how far the ray began ahead of the surface that the photon left
     bool began_here_ = false;
     [[no_unique_address]] typename contact_of<S, V>::type contact_{};
 };

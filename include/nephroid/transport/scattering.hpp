@@ -11,18 +11,16 @@ enum class Event : unsigned char {
     reflect, ///< mirror reflection
     refract, ///< into the other medium; beyond the critical angle the walk reflects instead
     deposit, ///< the surface is diffuse (or glossy): the photon is splatted here and ends
-    pass,    ///< a false surface, such as one between two bodies of water: the photon goes on as it is, into `medium`
+    pass,    ///< light does not notice this surface, such as one inside of water: the photon goes on, into `medium`
 };
 
-/// Normals are best left pointing out of the object, as the surface has them. A tracer that turns them to face every
-/// ray knows from its own "front face" whether the ray enters: dot(direction, normal) < 0 is then true on the way out
-/// too.
+/// The result of a scene's `scatter`. Your own type with these members will do as well. `eta` is only read for
+/// Event::refract. A type may also have the members `medium` (which a refracted ray enters, for scenes with
+/// absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent). In a scene without glass the
+/// type may leave out `eta` and declare `static constexpr bool refracts = false`; then no refraction is compiled.
 ///
-/// The answer of a scene's `scatter`. Your own type with these members will do as well; `eta` is only read for
-/// Event::refract, and a type may have a further member `medium` (the one that a refracted ray enters, for scenes
-/// with absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent). A type of a scene
-/// without glass does without `eta` and says so: `static constexpr bool refracts = false`. Then no refraction is
-/// compiled.
+/// Whether a ray enters an object is best seen from normals that point out of it: dot(direction, normal) < 0. In a
+/// renderer whose normals always face the ray this is always true; use its own "front face" flag instead.
 ///
 /// ```cpp
 /// // Glass that reflects or refracts by chance, each with its Fresnel term over its probability: both weights are 1.
@@ -43,7 +41,7 @@ struct Scattering {
     [[nodiscard]] static Scattering refract(const F& weight, T eta) { return {Event::refract, weight, eta}; }
 };
 
-/// The answer of a scene of mirrors.
+/// The result of `scatter` in a scene of mirrors.
 template <Flux F>
 struct MirrorScattering {
     static constexpr bool refracts = false;

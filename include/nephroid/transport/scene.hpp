@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What the library asks of a renderer's scene: rays that hit, and surfaces that scatter.
+/// @file  The scene: a renderer's functions that intersect rays with surfaces and scatter light there.
 #pragma once
 
 #include "nephroid/transport/hit.hpp"
@@ -12,8 +12,8 @@
 
 namespace nephroid {
 
-/// `scene.intersect(origin, direction, t_min, t_max)`: the nearest hit with t_min < distance < t_max, as anything
-/// that reads like std::optional of a hit. Called from several threads at once.
+/// `scene.intersect(origin, direction, t_min, t_max)` returns the nearest hit with t_min < distance < t_max, as a
+/// std::optional or any type that is used like one. Called from several threads at once.
 template <class S, class V>
 concept Intersects = Vector3<V> && requires(const S& scene, const V& v, scalar_t<V> t) {
     {bool(scene.intersect(v, v, t, t))};
@@ -24,46 +24,47 @@ template <class S, class V>
 using hit_t = std::remove_cvref_t<decltype(*std::declval<const S&>().intersect(
     std::declval<const V&>(), std::declval<const V&>(), scalar_t<V>(0), scalar_t<V>(1)))>;
 
-/// The renderer has its own way to start a ray off a surface: `scene.spawn(hit, direction)` is the new ray's origin.
+/// Optional: `scene.spawn(hit, direction)` returns the origin of a new ray, if the renderer has a method of its own.
 template <class S, class V>
 concept SpawnsRays = Intersects<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& direction) {
     { scene.spawn(hit, direction) } -> std::convertible_to<V>;
 };
 
-/// A new ray must not hit the surface it leaves: either each hit bounds its `position_error`, or the scene spawns.
+/// A new ray must not hit the surface that it leaves. So either hits have a `position_error`, or the scene has `spawn`.
 template <class S, class V>
 concept KeepsRaysOffSurfaces = SpawnsRays<S, V> || HasPositionError<hit_t<S, V>, V>;
 
-/// Optional: the renderer's tracer finds nothing nearer than `scene.tracer_epsilon` to a ray's origin, whatever t_min
-/// says (world units, >= 0; 0.001 is usual). The walk then begins its rays so much further back, along their own line,
-/// that nothing is skipped: neither the table that a glass stands on nor a surface close to the lamp.
+/// Optional: `scene.tracer_epsilon` is the distance from a ray's origin within which the renderer's tracer finds
+/// nothing, whatever t_min is (world units, >= 0; usually 0.001). The walk then begins its rays further back along
+/// their line by this distance, so that no surface is skipped: neither the table under a glass nor a surface near the
+/// lamp.
 template <class S, class V>
 concept HasTracerEpsilon = requires(const S& scene) {
     { scene.tracer_epsilon } -> std::convertible_to<scalar_t<V>>;
 };
 
-/// Enough for photons without tangents; for others hits also say how their normals change (`Hit`).
+/// All that photons without tangents need. For others, hits also need a `curvature` (`Hit`).
 template <class S, class V>
 concept RayTracer =
     Intersects<S, V> && HasDistance<hit_t<S, V>, V> && HasGeometricNormal<hit_t<S, V>, V> && KeepsRaysOffSurfaces<S, V>;
 
-/// Optional: `typename S::medium` is what a photon carries to know what it flies through (a value-initialised one
-/// where it is emitted), and `scene.transmittance(medium, distance)` the share of flux that passes. Scenes without
-/// these pay nothing. Where media touch or overlap, `medium` may be `Media` (transport/media.hpp).
+/// Optional, for absorption: `typename S::medium` describes the medium that a photon flies through (value-initialised
+/// at emission), and `scene.transmittance(medium, distance)` is the share of the flux that passes. Scenes without these
+/// members pay nothing. If media touch or overlap, `medium` may be `Media` (transport/media.hpp).
 template <class S, class V>
 concept Absorbs = requires(const S& scene, const typename S::medium& medium, scalar_t<V> distance) {
     {scene.transmittance(medium, distance)};
 };
 
-/// Optional: `scene.medium_at(position)` is the medium that a photon emitted there flies through first. A scene whose
-/// lamps may lie under water finds this out once for each lamp.
+/// Optional: `scene.medium_at(position)` is the medium at a lamp, for scenes with lamps under water. It is called for
+/// each photon, so a scene should compute it once for each lamp.
 template <class S, class V>
 concept KnowsMediumOfLamps = Absorbs<S, V> && requires(const S& scene, const V& position) {
     { scene.medium_at(position) } -> std::convertible_to<typename S::medium>;
 };
 
 namespace detail {
-/// Nothing is flown through: what a scene without absorption carries.
+/// The medium of scenes without absorption.
 struct NoMedium {};
 
 template <class S, class V>
@@ -76,7 +77,7 @@ struct medium_of<S, V> {
     using type = typename S::medium;
 };
 
-/// The scene's `scatter`, with the medium that the photon comes through where it asks for that.
+/// Calls the scene's `scatter`, with the photon's medium if `scatter` takes it.
 template <class S, class H, class V, class Sampler, class Medium>
     requires requires(const S& scene, const H& hit, const V& v, Sampler& sampler, const Medium& medium) {
         scene.scatter(hit, v, sampler, medium);
@@ -95,9 +96,9 @@ template <class S, class H, class V, class Sampler, class Medium>
 }
 } // namespace detail
 
-/// `scene.scatter(hit, direction, sampler)`: what the surface does with a photon that arrives along the unit
-/// direction, a `Scattering` or a type like it. `sampler.template next<T>()` draws the numbers for its choices. With a
-/// fourth parameter it is told the `medium` that the photon comes through.
+/// `scene.scatter(hit, direction, sampler)` returns what the surface does with a photon that arrives along the unit
+/// direction: a `Scattering` or a type like it. `sampler.template next<T>()` draws random numbers for its choices. An
+/// optional fourth parameter gets the `medium` that the photon arrives through.
 template <class S, class V, class Sampler>
 concept Scatters = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& v, Sampler& sampler,
                                                const typename detail::medium_of<S, V>::type& medium) {
@@ -113,18 +114,18 @@ namespace detail {
 template <class Result, class S, class A, class B, class C>
 C third_parameter(Result (S::*)(A, B, C) const);
 
-/// `scatter` takes its sampler as a const reference, which gives no numbers.
+/// `scatter` takes its sampler as a const reference, from which no numbers can be drawn.
 template <class S, class Sampler>
 concept DrawsFromConst = requires {
     { third_parameter(&S::template scatter<Sampler>) } -> std::same_as<const Sampler&>;
 };
 } // namespace detail
 
-/// All that a photon's walk needs. One object: a renderer's scene, or a small struct that points at it.
+/// All that a photon's walk needs, in one object: a renderer's scene, or a small struct that points to it.
 ///
-/// A float's coordinates are as coarse as a ten-millionth of the distance from the origin. A caustic of one unit is
-/// noisy 1,000 units away from it, off by a tenth at 10,000 and by 40% at 100,000: a scene should lie about its own
-/// middle.
+/// Coordinates in float are exact to a ten-millionth of their distance from the origin. A caustic of the size of one
+/// unit is noisy 1,000 units away from the origin, off by a tenth at 10,000 and by 40% at 100,000. So a scene's origin
+/// should be in its middle.
 ///
 /// ```cpp
 /// struct Adapter {
@@ -144,13 +145,13 @@ concept DrawsFromConst = requires {
 /// };
 /// ```
 ///
-/// @tparam N  tangents of the photons: those without ask no `curvature` of a hit
+/// @tparam N  tangents of the photons; with none, hits need no `curvature`
 template <class S, class V, class Sampler, std::size_t N = 2>
 concept Scene = RayTracer<S, V> && Scatters<S, V, Sampler> &&
     (N == 0 || Hit<hit_t<S, V>, V>)&&!detail::DrawsFromConst<S, Sampler>;
 
 namespace detail {
-/// What a scene lacks, as the first line of the compiler's message.
+/// Says what a scene lacks, in the first line of the compiler's message.
 template <class S, class V, class Sampler, std::size_t N>
 consteval bool explain_scene() {
     static_assert(Intersects<S, V>, "nephroid: the scene lacks intersect(origin, direction, t_min, t_max) const -> an "
@@ -160,12 +161,12 @@ consteval bool explain_scene() {
         static_assert(HasDistance<H, V>, "nephroid: the scene's hit lacks `distance` (transport/hit.hpp)");
         static_assert(HasGeometricNormal<H, V>,
                       "nephroid: the scene's hit lacks `geometric_normal` (transport/hit.hpp)");
-        static_assert(N == 0 || SaysHowItsNormalChanges<H, V>,
+        static_assert(N == 0 || HasCurvature<H, V>,
                       "nephroid: the scene's hit lacks `curvature`, which says how its normal changes; "
                       "nephroid::Flat is the answer for planes alone (differential/curvature.hpp)");
         static_assert(KeepsRaysOffSurfaces<S, V>, "nephroid: the scene's hit lacks `position_error`, or the scene "
                                                   "spawn(hit, direction) const (transport/scene.hpp)");
-        if constexpr (KeepsRaysOffSurfaces<S, V>) // without which nothing is asked of scatter
+        if constexpr (KeepsRaysOffSurfaces<S, V>) // otherwise Scatters fails for that reason
             static_assert(Scatters<S, V, Sampler>,
                           "nephroid: the scene lacks scatter(hit, direction, sampler) const -> event, "
                           "weight, eta (transport/scattering.hpp)");
@@ -176,7 +177,7 @@ consteval bool explain_scene() {
     return false;
 }
 
-/// For functions without an overload, where a wrong type can only be a mistake: Scene, or an error that says why not.
+/// Scene, or an error that says why not; for functions without overloads, where a wrong type can only be a mistake.
 template <class S, class V, class Sampler, std::size_t N = 2>
 concept MustBeScene = Scene<S, V, Sampler, N> || explain_scene<S, V, Sampler, N>();
 } // namespace detail

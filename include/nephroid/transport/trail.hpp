@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What is noted of a path on its way: nothing, or a signature of the surfaces that it met.
+/// @file  What a walk remembers of its path: nothing, or a signature of the surfaces that the path met.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -9,15 +9,15 @@
 
 namespace nephroid {
 
-/// A number that two paths share if they met the same surfaces, on the same sides, and went the same ways: then they
-/// are neighbours on one smooth sheet of the caustic, and their difference is a derivative. Surfaces are told apart by
-/// `hit.surface`, where a hit has that: it should name a smooth surface, not one of its triangles.
+/// A hash of a path that is equal for two paths if they met the same surfaces, from the same sides, and went the same
+/// ways there. Such paths lie on one smooth sheet of the caustic, so that their difference approximates a derivative.
+/// Surfaces are distinguished by `hit.surface`, if hits have it: it should number smooth surfaces, not triangles.
 ///
-/// A visitor by itself, for a walk that ends in one deposit, and a visitor's `trail`.
+/// It can be a visitor by itself, for walks that end in one deposit, or the `trail` of a visitor.
 class PathSignature {
 public:
     /// @param from_front  whether the photon came from the side that the geometric normal points to
-    /// @param passed      whether it went on through the surface
+    /// @param passed      whether the photon goes on through the surface
     template <class Hit>
     void meet(const Hit& hit, bool from_front, bool passed) {
         add(std::uint32_t(from_front) | std::uint32_t(passed) << 1);
@@ -44,7 +44,7 @@ private:
     std::uint32_t hash_ = 2166136261u;
 };
 
-/// Notes nothing, and costs nothing.
+/// Remembers nothing, and costs nothing.
 struct NoTrail {
     template <class Hit>
     void meet(const Hit&, bool /*from_front*/, bool /*passed*/) const {}
@@ -57,7 +57,7 @@ struct WalkedPath {
     unsigned bounces = 0;         ///< diffuse surfaces that the photon went on from
     [[no_unique_address]] Trail trail{};
 
-    /// Whether it came from the lamp straight away.
+    /// Whether the photon has come straight from the lamp.
     [[nodiscard]] bool is_direct() const { return specular_events == 0 && bounces == 0; }
 };
 

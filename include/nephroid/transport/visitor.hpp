@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a method may ask of a photon's walk: flights, surfaces, deposits, all ways of light.
+/// @file  Visitors: how a method is called during a photon's walk, for flights, surfaces and deposits.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"
@@ -15,25 +15,24 @@
 
 namespace nephroid {
 
-/// The members of a visitor, each of which may be left out. What is left out is not compiled.
+/// A visitor has some of these members. What it does not have is not compiled.
 ///
-/// - `flight(flight)`: told of each straight way as it begins (transport/flight.hpp); of all, those that leave the
-///   scene too
-/// - `meet(hit, from_front, passed)`: told of each surface, once it is known whether the photon goes on through it; of
-///   the one that it is deposited on last
-/// - `deposit(deposit, path)`: told of each deposit with its `WalkedPath`. It returns nothing, and the photon ends:
-///   whoever visits books the flux. Or std::optional<Photon<V, F, N>>: a photon there goes on, from the deposit's
-///   position, and what it carries less than arrived is booked as absorbed; without one, the photon ends as above
-/// - `using trail = PathSignature`: what is noted of each path, or a type like it. It begins anew at the lamp, is
-///   copied where ways part, and comes with each deposit as `path.trail`
-/// - `static constexpr bool wants_direct_light = true`: deposits straight from the lamp are told, too, and so left to
-///   the visitor; else the walk books them as Fate::direct
-/// - `static constexpr bool follows_all_ways = true`: at a surface the photon takes all ways that the scene tells
-///   (`scatter_all`), one after the other, in the scene's order, each to its end; no roulette then. A photon may so
-///   have many deposits, or none
+/// - `flight(flight)`: called at the start of each flight (transport/flight.hpp), also of those that leave the scene
+/// - `meet(hit, from_front, passed)`: called for each surface, as soon as it is known whether the photon goes on
+///   through the surface; last for the one on which the photon is deposited
+/// - `deposit(deposit, path)`: called for each deposit, with its `WalkedPath`. If it returns void, the photon ends, and
+///   the visitor's owner books the flux. If it returns std::optional<Photon<V, F, N>>, that photon goes on from the
+///   deposit's position, and the walk books the loss of flux as absorbed; without a photon it is as for void
+/// - `using trail = PathSignature`, or a type like it: what the walk remembers of each path. It starts empty at the
+///   lamp, is copied where ways part, and comes with each deposit as `path.trail`
+/// - `static constexpr bool wants_direct_light = true`: deposits straight from the lamp are visited too; otherwise the
+///   walk books them as Fate::direct
+/// - `static constexpr bool follows_all_ways = true`: at each surface the photon takes all ways that the scene's
+///   `scatter_all` returns, one after the other, in the scene's order, each to its end. There is no roulette then, and
+///   a photon may have many deposits, or none
 ///
 /// ```cpp
-/// struct Corners { // all deposits of a photon, each with the number of its path
+/// struct Corners { // all deposits of a photon, each with the signature of its path
 ///     using trail = nephroid::PathSignature;
 ///     static constexpr bool follows_all_ways = true;
 ///
@@ -46,8 +45,8 @@ namespace nephroid {
 /// };
 /// ```
 ///
-/// A visitor without `deposit` is for a walk that ends in one deposit at most, which `walk` then returns.
-struct NoVisitor {}; ///< asks for nothing
+/// Without `deposit` in the visitor, `walk` returns the deposit, of which there is one at most.
+struct NoVisitor {}; ///< has no members
 
 namespace detail {
 struct HasFlight {
@@ -62,7 +61,8 @@ struct HasDeposit {
 template <class A, class B>
 struct Both : A, B {};
 
-// Whether a type has a member of a name, whatever it is: another base with the same one makes it ambiguous.
+// Whether a type has a member of a name, of any kind: the name is then ambiguous in a class that also inherits another
+// member of that name.
 template <class Visitor>
 concept CanBeBase = std::is_class_v<Visitor> && !std::is_final_v<Visitor>;
 template <class Visitor>
@@ -127,7 +127,7 @@ concept VisitsDeposits = requires(Visitor& visitor, const Deposit<V, F, N>& depo
     visitor.deposit(deposit, path);
 };
 
-/// Its photons go on from deposits where it says so.
+/// The visitor may send photons on from deposits.
 template <class Visitor, class V, class F, std::size_t N>
 concept SendsPhotonsOn = VisitsDeposits<Visitor, V, F, N> &&
     requires(Visitor& visitor, const Deposit<V, F, N>& deposit, const WalkedPath<trail_t<Visitor>>& path) {
@@ -140,23 +140,22 @@ concept EndsPhotonsAtDeposits = VisitsDeposits<Visitor, V, F, N> &&
     { visitor.deposit(deposit, path) } -> std::same_as<void>;
 };
 
+/// Whether all members that a visitor has can be called as the walk calls them.
 template <class Visitor, class S, class V, class F, std::size_t N>
-concept FitsWalk =
-    (!NamesFlight<Visitor> || VisitsFlights<Visitor, V, F, N>)&&(
-        !NamesMeet<Visitor> ||
-        VisitsSurfaces<Visitor, hit_t<S, V>>)&&(!NamesDeposit<Visitor> ||
-                                                VisitsDeposits<Visitor, V, F,
-                                                               N>)&&(!VisitsDeposits<Visitor, V, F, N> ||
-                                                                     EndsPhotonsAtDeposits<Visitor, V, F, N> ||
-                                                                     SendsPhotonsOn<Visitor, V, F,
-                                                                                    N>)&&TrailOver<trail_t<Visitor>,
-                                                                                                   hit_t<S, V>> &&
-    (!follows_all_ways<Visitor> ||
-     VisitsDeposits<Visitor, V, F, N>)&&(!follows_all_ways<Visitor> ||
-                                         TellsAllWays<S, V>)&&(std::same_as<Visitor, NoVisitor> ||
-                                                               VisitsFlights<Visitor, V, F, N> ||
-                                                               VisitsSurfaces<Visitor, hit_t<S, V>> ||
-                                                               VisitsDeposits<Visitor, V, F, N>);
+consteval bool fits_walk() {
+    using H = hit_t<S, V>;
+    constexpr bool flights = VisitsFlights<Visitor, V, F, N>, surfaces = VisitsSurfaces<Visitor, H>,
+                   deposits = VisitsDeposits<Visitor, V, F, N>;
+    constexpr bool has_any = flights || surfaces || deposits || std::same_as<Visitor, NoVisitor>;
+    constexpr bool flight_fits = flights || !NamesFlight<Visitor>;
+    constexpr bool meet_fits = surfaces || !NamesMeet<Visitor>;
+    constexpr bool deposit_fits = deposits || !NamesDeposit<Visitor>;
+    constexpr bool result_fits =
+        !deposits || EndsPhotonsAtDeposits<Visitor, V, F, N> || SendsPhotonsOn<Visitor, V, F, N>;
+    constexpr bool ways_fit = !follows_all_ways<Visitor> || (deposits && ScattersDeterministically<S, V>);
+    return has_any && flight_fits && meet_fits && deposit_fits && result_fits && ways_fit &&
+           TrailOver<trail_t<Visitor>, H>;
+}
 
 /// What is wrong with a visitor, as the first line of the compiler's message.
 template <class Visitor, class S, class V, class F, std::size_t N>
@@ -182,7 +181,7 @@ consteval bool explain_visitor() {
                   "nephroid::walk: a visitor that follows all ways must have deposit(deposit, path), as a photon then "
                   "has many (transport/visitor.hpp)");
     static_assert(
-        !follows_all_ways<Visitor> || TellsAllWays<S, V>,
+        !follows_all_ways<Visitor> || ScattersDeterministically<S, V>,
         "nephroid::walk: the visitor follows all ways, but the scene lacks scatter_all(hit, direction) const; "
         "if its scatter draws no numbers, say scatters_by_chance = false (transport/ways.hpp)");
     static_assert(deposits || VisitsFlights<Visitor, V, F, N> || VisitsSurfaces<Visitor, H>,
@@ -191,7 +190,7 @@ consteval bool explain_visitor() {
 }
 
 template <class Visitor, class S, class V, class F, std::size_t N>
-concept MustVisit = FitsWalk<Visitor, S, V, F, N> || explain_visitor<Visitor, S, V, F, N>();
+concept MustVisit = fits_walk<Visitor, S, V, F, N>() || explain_visitor<Visitor, S, V, F, N>();
 } // namespace detail
 
 } // namespace nephroid

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  A photon's walk: from the lamp through mirrors and glass to the surfaces where its light is seen. One for all
-///        methods: a visitor says what of it they want to know.
+/// @file  A photon's walk: from the lamp through mirrors and glass to the surfaces where its light is seen. All methods
+///        use this walk; a visitor gives them the parts that they need.
 #pragma once
 
 #include "nephroid/transport/account.hpp"
@@ -15,16 +15,16 @@
 
 namespace nephroid {
 
-/// Follows one photon, and tells a visitor what happens to it.
+/// Follows one photon, and calls a visitor at each step.
 ///
 /// @param scene    the renderer's, see `Scene`
-/// @param photon   as emitted; used up
+/// @param photon   as emitted; changed by the walk
 /// @param sampler  the photon's own stream of numbers, from which the scene and Russian roulette draw
 /// @param limits   on the path
-/// @param account  gets the photon's flux by reason, except for what is deposited: that is the caller's to book. With
-///                 it, `emitted` is the sum of all fates; photons are `emitted` and `branches`
-/// @param visitor  flights, surfaces, deposits, all ways: as far as it has members for them (transport/visitor.hpp)
-/// @return  nothing if the visitor takes the deposits; else as below
+/// @param account  gets the photon's flux under its fate, except for deposits, which the caller books. With these, the
+///                 fates add up to the emitted flux, and to `emitted` and `branches` photons
+/// @param visitor  its members for flights, surfaces and deposits are called (transport/visitor.hpp)
+/// @return  void if the visitor takes the deposits; otherwise as below
 /// Does not throw unless the scene or the visitor does.
 template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Visitor>
     requires(detail::MustBeScene<S, V, Sampler, N>&& detail::MustVisit<std::remove_reference_t<Visitor>, S, V, F, N>)
@@ -40,7 +40,7 @@ auto walk(const S& scene, Photon<V, F, N>&& photon, Sampler& sampler, const Walk
         return kept;
 }
 
-/// The same, for a photon that stays as it was.
+/// The same, for a photon that the walk copies and does not change.
 template <class S, Vector3 V, Flux F, std::size_t N, class Sampler, class Visitor>
     requires(detail::MustBeScene<S, V, Sampler, N>&& detail::MustVisit<std::remove_reference_t<Visitor>, S, V, F, N>)
 auto walk(const S& scene, const Photon<V, F, N>& photon, Sampler& sampler, const WalkLimits& limits,
@@ -51,7 +51,7 @@ auto walk(const S& scene, const Photon<V, F, N>& photon, Sampler& sampler, const
 
 /// Follows one photon along its specular path to the diffuse surface where it ends.
 ///
-/// @return  the photon where it is to be splatted; nothing if it ended otherwise, which is then in the account
+/// @return  the photon where it is to be splatted; nothing if it ended in another way, which the account then shows
 template <class S, Vector3 V, Flux F, std::size_t N, class Sampler>
     requires detail::MustBeScene<S, V, Sampler, N>
 [[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, Photon<V, F, N>&& photon, Sampler& sampler,
@@ -59,7 +59,7 @@ template <class S, Vector3 V, Flux F, std::size_t N, class Sampler>
     return walk(scene, std::move(photon), sampler, limits, account, NoVisitor());
 }
 
-/// The same, for a photon that stays as it was.
+/// The same, for a photon that the walk copies and does not change.
 template <class S, Vector3 V, Flux F, std::size_t N, class Sampler>
     requires detail::MustBeScene<S, V, Sampler, N>
 [[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, const Photon<V, F, N>& photon, Sampler& sampler,

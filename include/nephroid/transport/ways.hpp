@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  All ways that light takes at a surface: what a scene may tell besides one of them by chance.
+/// @file  All ways that light takes at a surface, for scenes that can return them instead of choosing one by chance.
 #pragma once
 
 #include "nephroid/transport/scene.hpp"
@@ -11,7 +11,7 @@
 
 namespace nephroid {
 
-/// A few scatterings, in the order in which they are to be followed.
+/// A few scatterings, in the order in which a walk follows them.
 template <class Scattering, std::size_t Capacity = 2>
 class Ways {
 public:
@@ -24,7 +24,7 @@ public:
     constexpr Ways(const Scattering& first, const Scattering& second) requires(Capacity >= 2)
         : ways_{first, second}, size_(2) {}
 
-    /// There must be room for it.
+    /// Adds a way; there must be room for it.
     constexpr void add(const Scattering& way) {
         assert(size_ < Capacity);
         ways_[size_++] = way;
@@ -37,10 +37,11 @@ private:
     std::size_t size_ = 0;
 };
 
-/// Optional: `scene.scatter_all(hit, direction)` gives all ways that light takes at a surface, as `Ways` or anything
-/// else with size() and [i]; a way is what `scatter` would return, but that its weight is the share of light that takes
-/// it, over no probability. None is absorption. A way of Event::deposit that is not the only one deposits its weight's
-/// share. The result must not depend on chance: methods that compare neighbouring photons rely on it.
+/// Optional: `scene.scatter_all(hit, direction)` returns all ways that light takes at a surface, as `Ways` or any type
+/// with size() and [i]. A way is what `scatter` returns, except that its weight is the share of the light that goes
+/// this way, not divided by a probability. No ways mean absorption. If an Event::deposit is one of several ways, its
+/// weight is deposited. The result must not depend on chance, because methods that compare neighbouring photons rely
+/// on it.
 ///
 /// ```cpp
 /// nephroid::Ways<Scattering> scatter_all(const MyHit& hit, const Vec3& direction) const {
@@ -57,16 +58,16 @@ concept ScattersAllWays = RayTracer<S, V> && requires(const S& scene, const hit_
     {scene.scatter_all(hit, direction)[std::size_t(0)].weight};
 };
 
-/// The scene's `scatter` draws no numbers and says so, `static constexpr bool scatters_by_chance = false`: then the one
-/// way that it returns is all ways.
+/// The scene declares `static constexpr bool scatters_by_chance = false`: its `scatter` draws no numbers, and the way
+/// that it returns is the only one.
 template <class S>
 concept ScattersOneWay = requires {
     requires !bool(std::bool_constant<S::scatters_by_chance>::value);
 };
 
-/// Whether all ways of light in a scene can be followed, so that a photon's path is a function of where it was emitted.
-/// A scene with `scatter` alone may choose a way by chance.
+/// A scene in which all ways of light can be followed, so that a photon's paths are a function of where it was emitted.
+/// A scene with nothing but `scatter` may choose a way by chance.
 template <class S, class V>
-concept TellsAllWays = ScattersAllWays<S, V> || ScattersOneWay<S>;
+concept ScattersDeterministically = ScattersAllWays<S, V> || ScattersOneWay<S>;
 
 } // namespace nephroid

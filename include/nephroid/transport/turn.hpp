@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How a mirror or glass turns a photon and its tangents.
+/// @file  Turns a photon and its tangents at a mirror or glass.
 #pragma once
 
 #include "nephroid/differential/reflection.hpp"
@@ -12,27 +12,28 @@
 
 namespace nephroid::detail {
 
-/// +1 or −1: what turns a hit's normals, and the change of the shading one, to face a photon of this direction.
+/// The factor, +1 or −1, that makes a hit's normals face a photon of this direction. The change of the shading normal
+/// gets the same factor.
 template <Vector3 V, class H>
 [[nodiscard]] scalar_t<V> facing_sign(const V& direction, const H& hit) {
     using T = scalar_t<V>;
     return dot(direction, V(hit.geometric_normal)) > T(0) ? T(-1) : T(1);
 }
 
-/// Sends a photon the way that its direction turned.
+/// Gives a photon the direction and the tangents after a turn.
 ///
 /// @param turn    a Reflection or a Refraction
-/// @param normal  that it turned about, facing the photon
+/// @param normal  about which the photon turns; faces the photon
 template <Vector3 V, Flux F, std::size_t N, class Turn, class H, class Scattering>
-void follow_turn(Photon<V, F, N>& photon, const Turn& turn, const V& normal, const H& hit,
-                 const Scattering& scattering) {
+void apply_turn(Photon<V, F, N>& photon, const Turn& turn, const V& normal, const H& hit,
+                const Scattering& scattering) {
     using T = scalar_t<V>;
     if constexpr (N > 0) {
-        const T side = facing_sign(photon.direction, hit);
+        const T sign = facing_sign(photon.direction, hit);
         for (std::size_t i = 0; i < N; ++i) {
             Tangent<V>& tangent = photon.differential[i];
-            const V d_shading = side * V(hit.curvature(tangent.d_position));
-            // The normal in use may be the geometric one.
+            const V d_shading = sign * V(hit.curvature(tangent.d_position));
+            // The photon may turn about the geometric normal, so only the change across the normal in use counts.
             const V d_normal = d_shading - dot(normal, d_shading) * normal;
             if constexpr (requires { turn.differentiate(d_normal, d_normal, T(scattering.d_eta[i])); })
                 tangent.d_direction = turn.differentiate(tangent.d_direction, d_normal, T(scattering.d_eta[i]));
@@ -46,18 +47,18 @@ void follow_turn(Photon<V, F, N>& photon, const Turn& turn, const V& normal, con
 
 /// Reflects or refracts a photon about a normal that faces it; a refraction changes the medium.
 ///
-/// @return  false, and nothing is changed, where the photon would leave to the wrong side of the surface
+/// @return  false, with nothing changed, if the photon would leave on the wrong side of the surface
 template <Vector3 V, Flux F, std::size_t N, class Medium, class H, class Scattering>
-[[nodiscard]] bool bend_about(Photon<V, F, N>& photon, [[maybe_unused]] Medium& medium, const V& normal,
+[[nodiscard]] bool turn_about(Photon<V, F, N>& photon, [[maybe_unused]] Medium& medium, const V& normal,
                               const V& geometric_normal, const H& hit, const Scattering& scattering) {
     using T = scalar_t<V>;
     if (scattering.event == Event::refract) {
         if constexpr (!refracts<Scattering>) {
-            return false; // it said that it never would
+            return false; // the type says that its scene has no glass
         } else if (const auto refracted = refraction(photon.direction, normal, T(scattering.eta))) {
             if (!(dot(refracted->direction(), geometric_normal) < T(0)))
                 return false;
-            follow_turn(photon, *refracted, normal, hit, scattering);
+            apply_turn(photon, *refracted, normal, hit, scattering);
             if constexpr (requires { medium = scattering.medium; })
                 medium = scattering.medium;
             return true;
@@ -66,7 +67,7 @@ template <Vector3 V, Flux F, std::size_t N, class Medium, class H, class Scatter
     const Reflection<V> reflected(photon.direction, normal);
     if (!(dot(photon.direction, normal) < T(0)) || !(dot(reflected.direction(), geometric_normal) > T(0)))
         return false;
-    follow_turn(photon, reflected, normal, hit, scattering);
+    apply_turn(photon, reflected, normal, hit, scattering);
     return true;
 }
 

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a renderer's answers must be for a photon to go on by them; those of a photon that may not end it as
-///        Fate::invalid, so that a mistake in an adapter is counted and never drawn.
+/// @file  Checks of the values that a renderer returns. A photon with a wrong value ends as Fate::invalid, so that a
+///        mistake in an adapter shows in the account and not in the picture.
 #pragma once
 
 #include "nephroid/transport/scattering.hpp"
 
 namespace nephroid::detail {
 
-/// To 0.2%: what is further off was never normalised.
+/// Whether a vector has unit length to 0.2%. A vector that is further off was never normalised.
 template <Vector3 V>
 [[nodiscard]] bool is_unit(const V& v) {
     using T = scalar_t<V>;
     return abs(length2(v) - T(1)) <= T(1) / T(256);
 }
 
-/// Negative light, in a band at least where the flux is a vector.
+/// Whether a flux is negative; for a vector, in one of its bands.
 template <Flux F>
 [[nodiscard]] bool has_negative_band(const F& flux) {
     if constexpr (Scalar<F>) {
@@ -27,9 +27,9 @@ template <Flux F>
     }
 }
 
-/// A refraction needs a ratio of indices that is positive and finite; other events have none.
+/// Whether a refraction has a ratio of indices that is positive and finite. Other events need none.
 template <Scalar T, class Scattering>
-[[nodiscard]] bool has_index([[maybe_unused]] const Scattering& scattering) {
+[[nodiscard]] bool has_valid_index([[maybe_unused]] const Scattering& scattering) {
     if constexpr (refracts<Scattering>)
         return scattering.event != Event::refract || (T(scattering.eta) > T(0) && isfinite(T(scattering.eta)));
     else
