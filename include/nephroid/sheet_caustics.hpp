@@ -45,11 +45,11 @@ template <class L>
     if constexpr (requires { light.lights(); }) {
         std::vector<typename L::AnyLight> without;
         for (const auto& any : light.lights())
-            if (std::visit([](const auto& one) { return charts_of(one, 1).without > 0; }, any))
+            if (std::visit([](const auto& one) { return charts_of(one, 1).power_without > 0; }, any))
                 without.push_back(any);
         return without.empty() ? std::nullopt : std::optional<L>(L(std::move(without)));
     } else {
-        return charts_of(light, 1).without > 0 ? std::optional<L>(light) : std::nullopt;
+        return charts_of(light, 1).power_without > 0 ? std::optional<L>(light) : std::nullopt;
     }
 }
 } // namespace detail

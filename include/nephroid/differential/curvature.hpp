@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How a surface's normal changes along it, in the four forms that renderers know.
+/// @file  Curvature: how a surface's normal changes along the surface, in the four forms that renderers know.
 ///
 /// Each form is a function from the displacement of a hit point in the tangent plane, dx, to the change of the
 /// *shading* normal, dn. A hit has one as its member `curvature`; a scene with several kinds of surface uses
@@ -16,7 +16,7 @@
 
 namespace nephroid {
 
-/// Gives the change of the shading normal: `curvature(dx)` is dn.
+/// `curvature(dx)` returns dn, the change of the shading normal.
 ///
 /// ```cpp
 /// struct Bumps { // a renderer's own: a plane z = 0 with the normal of z = a sin(k x)
@@ -31,7 +31,7 @@ concept Curvature = Vector3<V> && requires(const C curvature, const V d_position
     { curvature(d_position) } -> std::convertible_to<V>;
 };
 
-/// The shading normal is constant: a plane, a flat-shaded triangle. The library never assumes it: a hit has to say so.
+/// The shading normal is constant, as on a plane or a flat-shaded triangle. The library never assumes this by itself.
 struct Flat {
     template <Vector3 V>
     [[nodiscard]] constexpr V operator()(const V&) const {
@@ -61,7 +61,7 @@ template <Vector3 V>
     return {column(t::x(e1), t::x(e2)), column(t::y(e1), t::y(e2)), column(t::z(e1), t::z(e2))};
 }
 
-/// The shape operator of a sphere with its outward normal; of a negative radius, with the inward one.
+/// The shape operator of a sphere with the outward normal; for a negative radius, with the inward normal.
 template <Vector3 V>
 [[nodiscard]] ShapeOperator<V> sphere_curvature(scalar_t<V> radius) {
     using T = scalar_t<V>;
@@ -87,7 +87,7 @@ private:
     [[nodiscard]] V solve(const V& d_position) const {
         using T = scalar_t<V>;
         const T uu = length2(dpdu), vv = length2(dpdv);
-        // By cross products, which keep their digits in sheared coordinates, where the Gram matrix loses them.
+        // Cross products keep their digits in sheared coordinates, where the Gram matrix would lose them.
         const V across = cross(dpdu, dpdv);
         const T gram = length2(across); // uu vv sin²
         if (gram > square(T(16) * std::numeric_limits<T>::epsilon()) * uu * vv) {
@@ -100,8 +100,7 @@ private:
         return uu >= vv ? V((dot(d_position, dpdu) / uu) * dndu) : V((dot(d_position, dpdv) / vv) * dndv);
     }
 
-    /// The same surface with its parameters rescaled to about the unit of length: for derivatives whose squares
-    /// overflow.
+    /// The same surface with its parameters rescaled so that derivatives are about 1, because their squares overflow.
     [[nodiscard]] ParametricCurvature in_range() const {
         const auto scale = [](const V& d) { return scalar_t<V>(1) / (std::max)(scalar_t<V>(1), largest_component(d)); };
         const scalar_t<V> u = scale(dpdu), v = scale(dpdv);

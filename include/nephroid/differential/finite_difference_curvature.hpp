@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Curvature for renderers that know none, from rays traced beside the hit.
+/// @file  Curvature from rays traced beside the hit, for renderers that do not know it.
 #pragma once
 
 #include "nephroid/differential/curvature.hpp"
@@ -10,13 +10,13 @@
 
 namespace nephroid {
 
-/// The change of a shading normal, dn = curvature(dx), by central differences: two rays beside the hit, each from a
-/// little above the surface straight down to it. They are traced only when the walk asks for dn: none where a surface
+/// The change of a shading normal, dn = curvature(dx), by central differences: two rays beside the hit are traced from
+/// a little above the surface straight down to it. They are traced only when the walk asks for dn: none where a surface
 /// only receives light, two for each tangent at a mirror or glass surface. `Statistics::rays` does not count them.
 ///
 /// Where a ray finds nothing, or another `surface`, or a normal that turns too fast for the scale, the rays move closer
-/// together. At a rim and at a crease the difference to the hit itself is taken, on the side where the surface goes on.
-/// Where no ray finds the surface dn is NaN, which ends the photon as Fate::invalid: never a silent zero.
+/// together. At a rim or a crease, the difference to the hit itself is used, on the side where the surface continues.
+/// If no ray finds the surface, dn is NaN and not a silent zero: the photon ends as Fate::invalid.
 /// `finite_difference_curvature` makes one; a default-constructed one gives NaN.
 ///
 /// @tparam Tracer  has `intersect(origin, direction, t_min, t_max)` as transport/scene.hpp asks; may be incomplete here
@@ -37,7 +37,7 @@ public:
     /// @param d_position  dx, in the tangent plane
     [[nodiscard]] V operator()(const V& d_position) const {
         if (!tracer_ || !all_finite(d_position) || !(scale_ > T(0)) || !isfinite(scale_))
-            return nothing_known();
+            return unknown();
         if (!(largest_component(d_position) > T(0)))
             return zero_vector<V>();
         const V along = direction_of(d_position);
@@ -56,7 +56,7 @@ private:
         T apart;
 
         [[nodiscard]] T size() const { return length(turn) / apart; }
-        /// Whether the normal turns no faster than on a surface of this scale, or hardly.
+        /// Whether the normal turns at most four times as fast as on a sphere with this radius.
         [[nodiscard]] bool is_gentle(T scale) const { return scale * length(turn) <= T(4) * apart; }
     };
 
@@ -73,7 +73,7 @@ private:
                 const Difference across{ahead->normal - behind->normal, to_ahead->apart + to_behind->apart};
                 if (to_ahead->is_gentle(scale) && to_behind->is_gentle(scale))
                     return T(1) / across.apart * across.turn;
-                // Points so far apart give the radius only roughly.
+                // The points are too far apart: they give the radius only roughly.
                 scale = (std::max)(T(1) / (std::max)(to_ahead->size(), to_behind->size()), scale / T(16));
             } else if (found && found->is_gentle(scale)) {
                 break;
@@ -81,7 +81,7 @@ private:
                 scale = scale / T(4);
             }
         }
-        return found ? V(T(1) / found->apart * found->turn) : nothing_known();
+        return found ? V(T(1) / found->apart * found->turn) : unknown();
     }
 
     [[nodiscard]] std::optional<Difference> from_hit(const V& along, const std::optional<Probe>& probe) const {
@@ -97,8 +97,8 @@ private:
         return !b || (a && a->size() <= b->size()) ? a : b;
     }
 
-    /// Traces a ray down to the surface at `offset` along the tangent plane, from as high above it as the surface may
-    /// sink below it.
+    /// Traces a ray down to the surface at `offset` along the tangent plane. The surface may lie as far below the plane
+    /// as the ray begins above it.
     [[nodiscard]] std::optional<Probe> probe(const V& along, T offset) const {
         const T height = abs(offset);
         const T skipped = tracer_epsilon();
@@ -130,7 +130,7 @@ private:
             return T(0);
     }
 
-    [[nodiscard]] static V nothing_known() {
+    [[nodiscard]] static V unknown() {
         const T nan = std::numeric_limits<T>::quiet_NaN();
         return make_vector<V>(nan, nan, nan);
     }

@@ -9,7 +9,7 @@
 
 namespace nephroid {
 
-/// A refraction at one surface point: `refraction` makes it once for each event, to be applied to each tangent.
+/// A refraction at one surface point. `refraction` makes it once for each event; it is then applied to each tangent.
 /// With c = −ω·n and c' the cosine of the refracted angle, ω' = η ω + μ n where μ = η c − c'.
 template <Vector3 V>
 class Refraction {

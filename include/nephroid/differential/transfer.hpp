@@ -9,8 +9,8 @@
 
 namespace nephroid {
 
-/// A flight of known length that ends on a known plane: `transfer` makes it once for each ray, to be applied to each
-/// tangent.
+/// A flight of known length that ends on a known plane. `transfer` makes it once for each ray; it is then applied to
+/// each tangent.
 template <Vector3 V>
 class Transfer {
 public:

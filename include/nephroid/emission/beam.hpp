@@ -29,12 +29,12 @@ struct Parallelogram {
     V edge_v;
 };
 
-/// The patch that a beam starts from. A sphere stands for the disk in front of it that covers it.
+/// The patch that a beam starts from. A sphere means the disk in front of the sphere that covers it.
 template <Vector3 V>
 using BeamPatch = std::variant<BoundingSphere<V>, BeamDisk<V>, Parallelogram<V>>;
 
 namespace detail {
-/// How far outside of the bounds a beam starts: a fraction of their size, plus the rounding far from the origin.
+/// The distance from the bounds at which a beam starts: a fraction of their size, plus the rounding of coordinates.
 template <Vector3 V>
 [[nodiscard]] scalar_t<V> beam_margin(const V& centre, scalar_t<V> size) {
     using T = scalar_t<V>;
@@ -73,7 +73,7 @@ template <Scalar T>
     return hull;
 }
 
-/// A rectangle in the plane, its sides along (cos, sin) and across.
+/// A rectangle in the plane, with sides parallel and perpendicular to (cos, sin).
 template <Scalar T>
 struct Rectangle {
     T cos, sin;
@@ -83,7 +83,8 @@ struct Rectangle {
     [[nodiscard]] T area() const { return (high_x - low_x) * (high_y - low_y); }
 };
 
-/// The smallest rectangle around a convex polygon; one of its sides lies on one of the polygon's. O(n²) for n corners.
+/// The smallest rectangle around a convex polygon; one of its sides lies on a side of the polygon. Time
+/// O(n²) for n corners.
 /// Source: Freeman and Shapira 1975, "Determining the minimum-area encasing rectangle for an arbitrary closed curve".
 template <Scalar T>
 [[nodiscard]] Rectangle<T> smallest_rectangle(const std::vector<BeamCoordinates<T>>& hull) {
@@ -126,8 +127,8 @@ template <Vector3 V>
 ///
 /// @param direction  of the beam, any length but zero
 /// @param points     corners of bounds, finite; at least two that do not lie on one line along the beam.
-/// Throws std::invalid_argument for other points. A flat target that the beam meets edge-on gets a patch of a
-/// thousandth of its length as width.
+/// Throws std::invalid_argument for other points. For a flat target that is parallel to the beam, the patch's width is
+/// a thousandth of its length.
 template <Vector3 V, std::ranges::forward_range R>
     requires std::same_as<std::ranges::range_value_t<R>, V>
 [[nodiscard]] BeamPatch<V> smallest_beam_over(const V& direction, const R& points) {
@@ -150,8 +151,8 @@ template <Vector3 V, std::ranges::forward_range R>
     const T side_x = box.high_x - box.low_x, side_y = box.high_y - box.low_y;
     const T longest = (std::max)(side_x, side_y);
     if (!(longest > T(64) * std::numeric_limits<T>::epsilon() * bounds.radius))
-        invalid_argument("nephroid::smallest_beam_over: the points lie on one line along the beam, which is as wide as "
-                         "what it lights; pass the corners of the target's bounds");
+        invalid_argument("nephroid::smallest_beam_over: the points lie on one line along the beam, so that the beam "
+                         "has no width; pass the corners of the target's bounds");
 
     const auto world = [&](T x, T y) -> V {
         return (box.cos * x - box.sin * y) * across.u + (box.sin * x + box.cos * y) * across.v;
@@ -165,7 +166,7 @@ template <Vector3 V, std::ranges::forward_range R>
         radius2 = (std::max)(radius2, x * x + y * y);
     }
 
-    // Rounding must leave no point outside: 16 units in the last place of all that was added up.
+    // Rounding must leave no point outside: 16 units in the last place of the largest term.
     const T rounding = T(16) * std::numeric_limits<T>::epsilon() * bounds.radius;
     const T radius = sqrt(radius2) + rounding;
     const T width_x = (std::max)(side_x, longest / T(1000)) + T(2) * rounding;

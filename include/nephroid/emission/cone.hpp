@@ -18,14 +18,15 @@ struct Cone {
     [[nodiscard]] bool is_everything() const { return height >= scalar_t<V>(2); }
 };
 
-/// All directions. Neighbours are known best about the axis, and least opposite to it, where all of the square's edge
-/// is one direction: the axis should point at what photons are wanted at.
+/// All directions. The axis should point to where photons are wanted: neighbours are close together around it, and
+/// furthest apart opposite to it, where the whole edge of the square becomes one direction.
 template <Vector3 V>
 [[nodiscard]] Cone<V> every_direction(const V& axis) {
     return {axis, scalar_t<V>(2)};
 }
 
-/// All directions, about an axis that is at least 50 degrees away from those that scenes are built along, both ways.
+/// All directions, around an axis that is at least 50 degrees away from the coordinate axes, on which scenes are often
+/// built.
 template <Vector3 V>
 [[nodiscard]] Cone<V> every_direction() {
     using T = scalar_t<V>;
@@ -41,7 +42,7 @@ template <Vector3 V>
     return cap_direction(cone.axis, frame, cone.height, concentric_disk(u1, u2));
 }
 
-/// How a pair of coordinates is mapped: its kinks, and what lies at its edges.
+/// How a pair of coordinates is mapped: where the map has kinks, and what lies at the edges of the square.
 struct EmissionPair {
     Kinks kinks = Kinks::nowhere;
     DomainEdge edges = DomainEdge::ends;
@@ -49,7 +50,7 @@ struct EmissionPair {
 
 /// How `direction_in` maps the square to a cone.
 template <Vector3 V>
-[[nodiscard]] EmissionPair directions_of(const Cone<V>& cone) {
+[[nodiscard]] EmissionPair direction_pair(const Cone<V>& cone) {
     return {Kinks::diagonals, cone.is_everything() ? DomainEdge::closes : DomainEdge::ends};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The domain that a light emits from: what places a photon in it, where its map is smooth, where it ends.
+/// @file  The domain that a light emits from: its coordinates, where the map to rays is smooth, and where it ends.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -16,23 +16,23 @@ namespace nephroid {
 enum class Kinks : unsigned char {
     nowhere,
     diagonals, ///< |u − ½| = |v − ½|: those of `concentric_disk`
-    unknown,   ///< anywhere, and jumps too: such as between the triangles of a mesh
+    unknown,   ///< anywhere, and jumps too, such as between the triangles of a mesh
 };
 
 /// What lies at both ends of a coordinate, 0 and 1.
 enum class DomainEdge : unsigned char {
     ends,    ///< a border of the light
-    repeats, ///< no border: what lies at 0 lies at 1 too, and the coordinate goes round
-    closes,  ///< no border: all of the square's edge is one ray
+    repeats, ///< no border: the coordinate is periodic
+    closes,  ///< no border: the whole edge of the square is one ray
 };
 
-/// What a number means that a light draws besides its coordinates.
+/// The meaning of a number that a light draws in addition to its coordinates.
 enum class EmissionExtra : unsigned char { none, wavelength, time };
 
-/// What a light says of its emission: a photon's ray is a function of its coordinates, each in [0, 1), alone.
+/// Describes a light's emission. A photon's ray is a function of its coordinates alone, each of which is in [0, 1).
 ///
-/// A light draws its coordinates first, those of the position before those of the direction, then its extras: the
-/// fluxes and the walk may depend on these, and photons that differ in them alone are still neighbours.
+/// A light draws its coordinates first, those of the position before those of the direction, and then its extras.
+/// Fluxes and walks may depend on the extras, but photons that differ only in extras are still neighbours.
 struct EmissionDomain {
     std::uint32_t coordinates = 2;         ///< 2 or 4: one pair for a point's directions or a beam's section, two for
                                            ///< an area light's positions and directions
@@ -40,7 +40,7 @@ struct EmissionDomain {
     std::array<Kinks, 2> kinks{};          ///< of each pair of coordinates
     std::array<DomainEdge, 4> edges{};     ///< of each coordinate
 
-    /// How many numbers are drawn besides the coordinates.
+    /// The number of extras.
     [[nodiscard]] constexpr std::uint32_t extra_count() const {
         std::uint32_t count = 0;
         for (std::size_t i = 0; i < extras.size(); ++i)
@@ -49,8 +49,8 @@ struct EmissionDomain {
     }
 };
 
-/// How far a point of a pair's square is from the nearest kink, in units of the square; infinite where there is none,
-/// 0 where they are unknown.
+/// The distance of a point of a pair's unit square from the nearest kink; infinite if there is no kink, and 0 if the
+/// kinks are unknown.
 [[nodiscard]] inline double distance_to_kink(Kinks kinks, double u, double v) {
     const double a = std::abs(u - 0.5), b = std::abs(v - 0.5), root_half = std::sqrt(0.5);
     switch (kinks) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where in its light's domain a photon starts: what makes photons neighbours at emission.
+/// @file  The point of its light's domain from which a photon starts. Photons with near points are neighbours.
 #pragma once
 
 #include "nephroid/emission/light.hpp"
@@ -13,13 +13,13 @@ namespace nephroid::detail {
 /// A point of a light's emission domain.
 struct EmissionSample {
     std::array<double, 2> at{};    ///< the first two coordinates, in [0, 1)
-    std::uint32_t light = 0;       ///< which of a `LightSet`'s; of sets within sets a number of its own, out of order
-    std::uint32_t coordinates = 0; ///< of its light's domain: 2 or 4, or 0 where the light declares none
-    std::array<double, 2> then{};  ///< the third and fourth, in [0, 1)
+    std::uint32_t light = 0;       ///< the light's index in its `LightSet`; a hash for sets inside of sets
+    std::uint32_t coordinates = 0; ///< of the light's domain: 2 or 4, or 0 if the light declares no domain
+    std::array<double, 2> then{};  ///< the third and fourth coordinates, in [0, 1)
 };
 
-/// A source of samples that keeps where in its domain a light emits. A light of several calls `chose(light,
-/// coordinates)`, if its source has that, before the chosen light draws.
+/// A source of samples that records the point of its domain from which a light emits. A set of lights calls
+/// `chose(light, coordinates)`, if the source has that member, before the chosen light draws.
 template <class Source>
 class RecordingSource {
 public:
@@ -37,7 +37,7 @@ public:
     }
 
     void chose(std::size_t light, std::uint32_t coordinates) {
-        constexpr std::uint32_t of_a_set = 0x9e3779b1u; // odd: keeps sets apart, far beyond the numbers of lights
+        constexpr std::uint32_t of_a_set = 0x9e3779b1u; // odd: a hash far beyond the indices of lights
         const std::uint32_t set = choices_++ == 0 ? 0 : (sample_.light + 1) * of_a_set;
         sample_ = {{}, set + static_cast<std::uint32_t>(light), coordinates, {}};
         known_ = 0;
@@ -51,10 +51,10 @@ private:
     Source* source_;
     EmissionSample sample_;
     std::uint32_t known_ = 0;
-    unsigned choices_ = 0; // a set's own light may be a set
+    unsigned choices_ = 0; // more than one if a set contains sets
 };
 
-/// Draws the coordinates alone.
+/// Draws a light's coordinates, without emitting a photon.
 template <class L, class Source>
 void draw_coordinates(const L& light, RecordingSource<Source>& samples) {
     if constexpr (requires { light.draw_coordinates(samples); }) {
@@ -64,7 +64,7 @@ void draw_coordinates(const L& light, RecordingSource<Source>& samples) {
             (void)samples.template next<scalar_t<typename L::vector>>();
     }
 }
-/// Where a light would emit a photon with these samples; without emitting it.
+/// The point from which a light would emit a photon with these samples.
 template <class L, class Source>
 [[nodiscard]] EmissionSample draw_point(const L& light, Source& samples) {
     RecordingSource<Source> recorder(samples, coordinates_of<L>);

@@ -10,7 +10,7 @@
 namespace nephroid {
 
 namespace detail {
-/// A source of samples that always gives the middle.
+/// A source of samples that always returns 1/2.
 struct MiddleSource {
     template <Scalar T>
     [[nodiscard]] T next() {
@@ -18,7 +18,7 @@ struct MiddleSource {
     }
 };
 
-/// A source of samples that gives the coordinates of a point first, and then another source's numbers.
+/// A source of samples that returns the coordinates of a point, and then the numbers of another source.
 template <std::size_t coordinates, class Rest>
 class PointSource {
 public:
@@ -36,14 +36,14 @@ private:
 };
 } // namespace detail
 
-/// The photon that a light emits from a point of its domain: a function of the point, smooth where the light declares
-/// it to be.
+/// The photon that a light emits from a point of its domain. It is a smooth function of the point, except at the kinks
+/// that the light declares.
 ///
-/// @param light   with a declared `domain`; one of a set's, not the set
+/// @param light   with a `domain`; not a set of lights, but one of them
 /// @param point   as many coordinates as the domain has, each in [0, 1]
-/// @param spread  of how many photons it is one, and how smooth: photons times its flux is the flux density over the
-///                domain's unit square
-/// @param extras  gives the wavelength and the like; where left out, each is the middle of its range
+/// @param spread  the number of photons that the light's flux is divided by, and their smoothing. The photon's flux
+///                times that number is the flux density over the domain's unit square
+/// @param extras  a source of samples for the extras (wavelength, time). If left out, each is the middle of its range
 ///
 /// ```cpp
 /// const auto corner = nephroid::emit_at(sun, {0.25, 0.75}, nephroid::Spread<float>{1, 1});

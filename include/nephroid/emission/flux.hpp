@@ -8,9 +8,9 @@
 
 namespace nephroid {
 
-/// How the library reads a user's flux type where one number is needed: for the flux account and for Russian
-/// roulette. A scalar (vector/scalar.hpp) and any `Vector3` (an RGB colour in the renderer's own vector) come along;
-/// another type specialises this with
+/// Reads a user's flux type as one number, for the flux account and for Russian roulette. It is defined for scalars
+/// (vector/scalar.hpp) and for every `Vector3` (an RGB colour in the renderer's own vector). Specialise it for another
+/// type:
 ///
 /// ```cpp
 /// template <> struct nephroid::flux_traits<MySpectrum> {
@@ -19,7 +19,7 @@ namespace nephroid {
 /// };
 /// ```
 ///
-/// and has a + b, a * b band by band, and a * s for a number of the geometry's scalar.
+/// The type needs a + b, a * b band by band, and a * s for a number of the geometry's scalar type.
 template <class F>
 struct flux_traits;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a light is: something that emits photons and knows about how much it emits.
+/// @file  The concept of a light: it emits photons, and estimates its power.
 #pragma once
 
 #include "nephroid/emission/domain.hpp"
@@ -20,13 +20,13 @@ concept SampleSource = requires(S source) {
 };
 
 namespace detail {
-struct AnySampleSource { // for the compiler's eyes only
+struct AnySampleSource { // declared for concepts, never called
     template <class T>
     T next();
 };
 
 template <class L>
-concept SaysWhatItEmits = Vector3<typename L::vector> && Flux<typename L::flux_type>;
+concept HasVectorAndFlux = Vector3<typename L::vector> && Flux<typename L::flux_type>;
 
 template <class P, class L>
 inline constexpr bool is_photon_of = false;
@@ -51,17 +51,18 @@ concept EstimatesPower = requires(const L light) {
 /// A light source. Its members:
 ///
 /// - `vector` and `flux_type`
-/// - `emit(samples, spread) -> Photon`: one of `spread.photons` photons whose fluxes add up, on average, to the flux
-///   that the light sends into the domain it samples. It draws the same number of samples each time, the position's
-///   first. The first two tangents are an aligned pair of orthogonal ones at emission (emission/aligned_basis.hpp); a
-///   light may add more. It does not throw; a photon's flux may be zero.
-/// - `domain`, optional, `static constexpr EmissionDomain`: which of the samples place a photon in the light's domain,
-///   and which are extras (emission/domain.hpp). Methods that ask a photon's neighbours (second order, sheets) serve
-///   the lights that declare it, and no more is compiled than these need; photons of others are splatted alone.
-/// - `exact_domain() const -> EmissionDomain`, optional: the same with those kinks and edges that depend on the
-///   light's options
-/// - `power()`: an estimate of that flux, `flux_traits::power`'s unit. Photons are shared among lights by it, so it
-///   may be zero only where the flux is.
+/// - `emit(samples, spread) -> Photon`: emits one of `spread.photons` photons, whose fluxes add up, on average, to the
+///   flux that the light sends into its domain. It draws the same number of samples each time, those of the position
+///   first. The first two tangents are orthogonal and aligned at emission (emission/aligned_basis.hpp); a light may add
+///   more. It does not throw; a photon's flux may be zero.
+/// - `domain`, optional, `static constexpr EmissionDomain`: which of the samples are a photon's coordinates in the
+///   light's domain, and which are extras (emission/domain.hpp). Methods that use a photon's neighbours (second order,
+///   sheets) need it; without a domain, photons are splatted one by one. Only what the lights' domains need is
+///   compiled.
+/// - `exact_domain() const -> EmissionDomain`, optional: the domain with kinks and edges that depend on the light's
+///   options
+/// - `power()`: an estimate of that flux, in the unit of `flux_traits::power`. A set of lights shares its
+///   photons among them by power, so it may be zero only if the flux is zero.
 ///
 /// ```cpp
 /// struct MyLaser { // a light of the renderer's own: a beam of this radius
@@ -89,7 +90,7 @@ concept EstimatesPower = requires(const L light) {
 ///
 /// The compiler checks the calls; `tests/emission/light/light_laws.hpp` checks the meaning, for every model.
 template <class L>
-concept Light = std::copyable<L> && detail::SaysWhatItEmits<L> && detail::EmitsPhotons<L> && detail::EstimatesPower<L>;
+concept Light = std::copyable<L> && detail::HasVectorAndFlux<L> && detail::EmitsPhotons<L> && detail::EstimatesPower<L>;
 
 /// The photon that a light emits.
 template <class L>
@@ -109,7 +110,7 @@ concept NamesDomain = requires(const L& light) {
 };
 } // namespace detail
 
-/// How many coordinates a light's domain has: 2 or 4, or 0 where it declares none, as a set of lights does.
+/// The number of coordinates of a light's domain: 2 or 4, or 0 if it declares no domain, such as a set of lights.
 template <class L>
 inline constexpr std::uint32_t coordinates_of = [] {
     if constexpr (detail::DeclaresDomain<L>)
@@ -118,7 +119,7 @@ inline constexpr std::uint32_t coordinates_of = [] {
         return 0u;
 }();
 
-/// A light's domain, with the kinks and edges that follow from its options.
+/// A light's domain, with the kinks and edges that depend on its options.
 template <class L>
     requires detail::DeclaresDomain<L>
 [[nodiscard]] EmissionDomain domain_of(const L& light) {
@@ -128,10 +129,10 @@ template <class L>
         return L::domain;
 }
 
-/// Which domains a light may emit from, as far as the compiler knows: a light of several may have all of them.
+/// The kinds of domain that a light may emit from, as known at compile time. A set of lights may have all of them.
 struct EmissionDomains {
     bool two = false, four = false; ///< by the number of coordinates
-    bool others = false;            ///< lights that declare none
+    bool others = false;            ///< lights that declare no domain
 
     [[nodiscard]] friend constexpr EmissionDomains operator|(EmissionDomains a, EmissionDomains b) {
         return {a.two || b.two, a.four || b.four, a.others || b.others};
@@ -142,8 +143,8 @@ struct EmissionDomains {
     return coordinates == 2 ? domains.two : coordinates == 4 ? domains.four : domains.others;
 }
 
-/// Those of a light: by its `domain`, or, for a light of several, by its `domains`. A member of that name that means
-/// something else is of another kind or type.
+/// The kinds of domain of a light, from its `domain`, or from the `domains` of a set of lights. A member with this name
+/// but another type is ignored.
 template <class L>
 inline constexpr EmissionDomains emission_domains = [] {
     if constexpr (requires {
@@ -157,7 +158,7 @@ inline constexpr EmissionDomains emission_domains = [] {
 namespace detail {
 template <class L>
 consteval bool explain_light() {
-    static_assert(SaysWhatItEmits<L>,
+    static_assert(HasVectorAndFlux<L>,
                   "nephroid: the light lacks its types `vector` (with vector_traits) and `flux_type` "
                   "(with flux_traits) (emission/light.hpp)");
     static_assert(EmitsPhotons<L>, "nephroid: the light lacks emit(samples, spread) const -> Photon<vector, flux_type> "
@@ -174,7 +175,7 @@ consteval bool explain_domain() {
     return false;
 }
 
-/// A light without a domain, or one that declares it as it must be.
+/// A light without a domain, or with a valid one.
 template <class L>
 concept MustDeclareDomain = !NamesDomain<L> || DeclaresDomain<L> || explain_domain<L>();
 
@@ -183,7 +184,7 @@ concept EmitsFor = std::same_as<typename L::vector, V> && std::same_as<typename 
 
 template <class L, class V, class F>
 consteval bool explain_emission() {
-    static_assert(EmitsFor<L, V, F>, "nephroid: the light's `vector` and `flux_type` are not those that are summed up");
+    static_assert(EmitsFor<L, V, F>, "nephroid: the light's `vector` and `flux_type` are not those of the sums");
     return false;
 }
 } // namespace detail

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Several lights as one: photons are shared among them by power.
+/// @file  A set of lights as one light: photons are divided among them in proportion to their power.
 #pragma once
 
 #include "nephroid/emission/emission_sample.hpp"
@@ -47,11 +47,11 @@ concept MustMakeSet = ((Light<First> && ... && Light<Others>)&&SamePhotons<First
                       explain_set<First, Others...>();
 } // namespace detail
 
-/// Lights of several types that emit the same photons. Itself a light.
+/// Lights of several types that emit photons of the same type. Itself a light.
 ///
-/// A sample chooses the light, with probability p in proportion to its power; it then emits as one of N p photons, so
-/// that fluxes and footprints are those that it would have with N p photons of its own. Draws one sample more than
-/// the light chosen, first; with a single light none. Each light keeps its own domain and extras.
+/// The first sample chooses a light, with a probability p in proportion to its power; a set of one light does not draw
+/// it. The chosen light then emits one of N p photons, so fluxes and footprints are as if it emitted N p photons by
+/// itself. Each light keeps its own domain and extras.
 template <class First, class... Others>
     requires detail::MustMakeSet<First, Others...>
 class LightSet {
@@ -89,19 +89,19 @@ public:
         const Spread<T> own{spread.photons * choice.probability, spread.smoothing};
         return std::visit(
             [&](const auto& light) {
-                tell(samples, choice.light, light);
+                report_choice(samples, choice.light, light);
                 return light.emit(samples, own);
             },
             lights_[choice.light]);
     }
 
-    /// Draws the choice and the chosen light's coordinates.
+    /// Draws the sample of the choice and the chosen light's coordinates, without emitting a photon.
     template <class S>
     void draw_coordinates(S& samples) const {
         const std::size_t chosen = choose(samples).light;
         std::visit(
             [&](const auto& light) {
-                tell(samples, chosen, light);
+                report_choice(samples, chosen, light);
                 detail::draw_coordinates(light, samples);
             },
             lights_[chosen]);
@@ -124,14 +124,15 @@ private:
             return {0, T(1)};
         const double at = samples.template next<double>() * total_power_;
         const auto found = std::upper_bound(power_up_to_.begin(), power_up_to_.end(), at);
-        if (found == power_up_to_.end()) // all are dark: each photon is the first one's, without flux
+        if (found == power_up_to_.end()) // all powers are zero: the first light emits photons without flux
             return {0, T(1)};
         const auto chosen = static_cast<std::size_t>(found - power_up_to_.begin());
         return {chosen, static_cast<T>(power_[chosen] / total_power_)};
     }
 
+    /// Tells the source which light was chosen, if the source records that (RecordingSource).
     template <class S, class L>
-    static void tell(S& samples, std::size_t i, const L&) {
+    static void report_choice(S& samples, std::size_t i, const L&) {
         if constexpr (requires { samples.chose(i, coordinates_of<L>); })
             samples.chose(i, coordinates_of<L>);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A photon on its way: a ray, the flux it carries, and the tangents that give it a footprint.
+/// @file  A photon: a ray, the flux that it carries, and the tangents that give it a footprint.
 #pragma once
 
 #include "nephroid/differential/tangent.hpp"

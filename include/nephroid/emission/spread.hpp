@@ -6,7 +6,7 @@
 
 namespace nephroid {
 
-/// The density of an emission: how many photons share the light's domain, and how much their footprints overlap.
+/// The density of emitted photons: how many a light's domain is divided among, and how much their footprints overlap.
 template <Scalar T>
 struct Spread {
     T photons;   ///< N_e, the number the light's flux is divided by, > 0
@@ -14,7 +14,7 @@ struct Spread {
 
     /// The length of each of two orthogonal tangents of a photon drawn uniformly from a domain of this measure (area,
     /// or solid angle in steradian): 2 s sqrt(measure / (π N)). For a photon drawn with a probability density p, pass
-    /// a measure of 1/p. A domain that is a single point has measure 0, and the tangent's length is 0.
+    /// a measure of 1/p. If the domain is a single point, its measure and the tangent's length are 0.
     /// Source: Frisvad et al. 2014, eq. 5 and 6; the density version is nephroid's.
     [[nodiscard]] T length(T measure) const { return T(2) * smoothing * sqrt(measure / (pi<T> * photons)); }
 };

@@ -10,20 +10,20 @@
 
 namespace nephroid {
 
-/// Bounds of the objects that photons should reach. A light that is aimed at them sends the same flux to every point
-/// inside as without an aim, and no photons (or few) elsewhere.
+/// Bounds of the objects that photons should reach. A light that is aimed at them sends the same flux to each point
+/// inside as without a target, and no photons (or few) elsewhere.
 template <Vector3 V>
 struct BoundingSphere {
     V centre;
     scalar_t<V> radius; ///< world units, > 0
 };
 
-/// A sphere that contains all points. Its centre is that of their box, and it reaches a few units in the last place
-/// beyond the furthest point. It is at most sqrt(3) times as wide as the smallest sphere; for the corners of a box it
-/// is the smallest.
+/// A sphere that contains all points. Its centre is the centre of their box, and its radius is a few units in the last
+/// place larger than the distance to the furthest point. It is at most sqrt(3) times as wide as the smallest sphere;
+/// for the corners of a box it is the smallest.
 ///
-/// @param points  a range of vectors, finite, at least one; else std::invalid_argument. Bounds of several objects are
-///                bounded by passing the corners of their boxes. One point has a sphere of radius 0, no light's target.
+/// @param points  a range of vectors, finite, at least one; otherwise std::invalid_argument. For several objects, pass
+///                the corners of their boxes. The sphere of a single point has radius 0, which no light accepts
 template <std::ranges::forward_range R>
     requires Vector3<std::ranges::range_value_t<R>>
 [[nodiscard]] BoundingSphere<std::ranges::range_value_t<R>> bounding_sphere(const R& points) {
@@ -48,9 +48,9 @@ template <std::ranges::forward_range R>
     return {centre, radius * (T(1) + T(8) * std::numeric_limits<T>::epsilon())};
 }
 
-/// The directions from a point to the sphere: from inside of it every direction, about that to its centre. The cone is
-/// exact to a few units in the last place, however narrow it is (but for the widest, from points that all but touch the
-/// sphere), and rounded up, so that no direction is missed.
+/// The cone of directions from a point to the sphere. From a point inside it contains every direction, and its axis
+/// points to the sphere's centre. Narrow cones are exact to a few units in the last place; very wide ones, from points
+/// that almost touch the sphere, are less exact. Cones are rounded up, so that no direction is missed.
 template <Vector3 V>
 [[nodiscard]] Cone<V> cone_towards(const BoundingSphere<V>& target, const std::type_identity_t<V>& from) {
     using T = scalar_t<V>;
@@ -58,7 +58,7 @@ template <Vector3 V>
     const T distance = length(towards);
     if (!(distance > target.radius))
         return distance > T(0) ? every_direction<V>(T(1) / distance * towards) : every_direction<V>();
-    constexpr T rounding = T(12) * std::numeric_limits<T>::epsilon(); // of all that is added up below, rounded up
+    constexpr T rounding = T(12) * std::numeric_limits<T>::epsilon(); // bounds the rounding of the sums below
     const T inverse = T(1) / distance;
     const T sine = target.radius * inverse;
     const T cosine2 = ((distance - target.radius) * inverse) * (T(1) + sine);

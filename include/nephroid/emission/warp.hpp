@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// @file  Area-preserving maps of low distortion from the unit square to what lights emit from and into.
+/// @file  Area-preserving maps of low distortion from the unit square to disks, triangles and sets of directions.
 ///
-/// They keep the stratification of a sample sequence: each is continuous, equal areas of the square go to equal areas
-/// (projected ones for the cosine-weighted hemisphere), and neighbours stay neighbours. Arguments u1, u2 are in [0, 1].
+/// They keep the stratification of a sample sequence: they are continuous, map equal areas of the square to equal areas
+/// (projected areas for the cosine-weighted hemisphere), and keep neighbours together. Arguments u1, u2 are in [0, 1].
 #pragma once
 
 #include "nephroid/vector/frame.hpp"
@@ -18,7 +18,7 @@ struct DiskPoint {
     T y;
 };
 
-/// The square's concentric squares become the disk's concentric circles.
+/// Maps the square to the disk; concentric squares become concentric circles.
 /// Source: Shirley and Chiu 1997, "A low distortion map between disk and square".
 template <Scalar T>
 [[nodiscard]] DiskPoint<T> concentric_disk(T u1, T u2) {
@@ -33,12 +33,13 @@ template <Scalar T>
     return {b * sin(angle), b * cos(angle)};
 }
 
-/// The disk's radius becomes the distance from the axis: a direction uniform over a cap of the unit sphere.
+/// Maps the disk to a cap of the unit sphere, so that directions are uniform; the disk's radius becomes the distance
+/// from the axis.
 ///
 /// @param axis    of the cap, unit
 /// @param frame   about the axis
 /// @param height  of the cap, 1 − cos(its half angle), in [0, 2]: its solid angle is 2π height. The cosine itself
-///                never occurs, so that the narrowest cone keeps all its digits.
+///                is not computed, so that narrow cones lose no digits
 /// Source: Lambert's azimuthal projection.
 template <Vector3 V>
 [[nodiscard]] V cap_direction(const V& axis, const Frame<V>& frame, scalar_t<V> height,
@@ -49,7 +50,7 @@ template <Vector3 V>
     return (stretch * disk.x) * frame.u + ((stretch * disk.y) * frame.v + (T(1) - depth) * axis);
 }
 
-/// A direction uniform over the whole sphere: the cap that is all of it, about z. The square's edge is (0, 0, -1).
+/// Maps the square to the whole sphere, uniformly, about the z axis. The edge of the square becomes (0, 0, -1).
 template <Vector3 V>
 [[nodiscard]] V sphere_direction(scalar_t<V> u1, scalar_t<V> u2) {
     using T = scalar_t<V>;
@@ -57,12 +58,12 @@ template <Vector3 V>
     return cap_direction(up, frame_about(up), T(2), concentric_disk(u1, u2));
 }
 
-/// A direction of the hemisphere about the axis with density cos/π per steradian: the disk raised to the sphere.
+/// Maps the disk to the hemisphere about the axis with density cos/π per steradian, by projecting it up to the sphere.
 ///
 /// @param axis   unit
 /// @param frame  about the axis
-/// @return  unit to rounding. Its cosine with the axis is never below sqrt(epsilon), which is as far as a disk point
-///          resolves it, so that the inverse of the density stays finite.
+/// @return  unit to rounding. Its cosine with the axis is at least sqrt(epsilon), the resolution of a disk point, so
+///          that the inverse of the density is finite
 /// Source: Malley's method; see Pharr, Jakob, Humphreys, "Physically Based Rendering".
 template <Vector3 V>
 [[nodiscard]] V cosine_direction(const V& axis, const Frame<V>& frame, const DiskPoint<scalar_t<V>>& disk) {
@@ -72,14 +73,15 @@ template <Vector3 V>
     return disk.x * frame.u + (disk.y * frame.v + cosine * axis);
 }
 
-/// Where a point lies in a triangle: p0 + b1 (p1 − p0) + b2 (p2 − p0), with b1, b2 and 1 − b1 − b2 in [0, 1].
+/// A point of a triangle: p0 + b1 (p1 − p0) + b2 (p2 − p0), with b1, b2 and 1 − b1 − b2 in [0, 1].
 template <Scalar T>
 struct Barycentrics {
     T b1;
     T b2;
 };
 
-/// The square's diagonal is folded into the middle of the triangle's longest side: two halves, each by an affine map.
+/// Maps the square to a triangle by two affine maps, one on each side of the diagonal, which becomes the median from
+/// p0.
 /// Source: Heitz 2019, "A low-distortion map between triangle and square".
 template <Scalar T>
 [[nodiscard]] Barycentrics<T> triangle_point(T u1, T u2) {

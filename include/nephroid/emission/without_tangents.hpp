@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A light whose photons carry no differentials: for the methods that do without footprints.
+/// @file  A light whose photons carry no differentials, for methods that need no footprints.
 #pragma once
 
 #include "nephroid/emission/light.hpp"
@@ -11,7 +11,7 @@
 namespace nephroid {
 
 namespace detail {
-/// What a light says of its domain.
+/// Declares the same emission domain as a light.
 template <class L>
 struct DomainLike {
     static constexpr EmissionDomains domains = emission_domains<L>;
@@ -22,9 +22,9 @@ struct DomainLike<L> {
 };
 } // namespace detail
 
-/// The same photons as the light's own, in position, direction and flux, bit for bit, but with N = 0 tangents, so that
-/// nothing is spent on carrying them along. Not a `Light`, which has at least two; what takes a `PhotonSource` takes
-/// it.
+/// Emits the light's photons with the same positions, directions and fluxes, bit for bit, but with N = 0 tangents,
+/// which saves the time of carrying them along. It is a `PhotonSource`, but not a `Light`, whose photons have two or
+/// more.
 ///
 /// ```cpp
 /// const auto traced = nephroid::trace_photons(scene, nephroid::WithoutTangents(light), pass, sequence, executor);
@@ -65,12 +65,12 @@ template <class L>
 concept EmitsWithoutTangents = is_without_tangents<L>;
 } // namespace detail
 
-/// What emits photons, with differentials or without.
+/// A source of photons, with differentials or without.
 template <class L>
 concept PhotonSource = Light<L> || detail::EmitsWithoutTangents<L>;
 
 namespace detail {
-/// How many tangents its photons have.
+/// The number of tangents of a source's photons.
 template <class L>
 inline constexpr std::size_t tangent_count_of = emitted_t<L>::tangent_count;
 

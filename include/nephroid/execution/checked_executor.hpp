@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  An executor that is held to its word: each task once. One that runs a task twice would write beyond the end
-///        of a list that has room for one, and one that leaves a task out would lose photons without a word.
+/// @file  Checks that an executor runs each task once. If it ran a task twice, the task could write beyond the end of
+///        an array; if it skipped a task, photons would be lost silently.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -14,8 +14,8 @@
 
 namespace nephroid::detail {
 
-/// Runs tasks by another executor, which must outlive it. A task that is run again is not; std::invalid_argument is
-/// thrown when all is done, if one was or if one was left out. Costs a byte for each task.
+/// Runs tasks by another executor, which must outlive it. It runs no task a second time. When all are done, it throws
+/// std::invalid_argument if the other executor repeated or skipped a task. Costs a byte for each task.
 template <Executor E>
 class CheckedExecutor {
 public:
@@ -38,7 +38,7 @@ public:
             complain("ran a task twice, or one beyond the last of " + std::to_string(count));
     }
 
-    /// Passed on to executors that want to know the phase.
+    /// Announces the phase to the other executor.
     void begin(Phase phase) { announce(executor_, phase); }
 
 private:

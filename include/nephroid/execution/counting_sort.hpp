@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A counting sort that several threads share: stable, and the same to the bit whoever runs it.
+/// @file  A stable counting sort for several threads. Its result does not depend on which thread does what.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -11,8 +11,8 @@
 
 namespace nephroid::detail {
 
-/// Sorts items by a small key; items with the same key stay in the order of their parts, and within a part in the order
-/// in which they are put. Keeps its memory from one sort to the next.
+/// Sorts items by a small key. Items with the same key stay in the order of their parts, and within a part in the order
+/// of the calls of `put`. Keeps its memory from one sort to the next.
 ///
 /// The caller goes over the items twice, part by part, on as many threads as it likes:
 ///
@@ -36,7 +36,7 @@ public:
 
     void count(std::size_t part, std::size_t key) { ++next_[part * keys_ + key]; }
 
-    /// Once all items are counted, before the first is put.
+    /// Called after all items are counted, and before the first `put`.
     void make_room() {
         begin_.resize(keys_ + 1);
         std::size_t sum = 0;
@@ -49,13 +49,13 @@ public:
         items_.resize(sum);
     }
 
-    /// As many items of a part and key as have been counted, in the same or another order.
+    /// Puts an item in its place. There must be as many items of each part and key as were counted, in any order.
     void put(std::size_t part, std::size_t key, const Item& item) { items_[next_[part * keys_ + key]++] = item; }
 
     /// All items, sorted.
     [[nodiscard]] std::span<Item> items() { return {items_.data(), items_.size()}; }
     [[nodiscard]] std::span<const Item> items() const { return {items_.data(), items_.size()}; }
-    /// Those with a key.
+    /// The items with a key.
     [[nodiscard]] std::span<Item> items_of(std::size_t key) { return {items_.data() + begin_[key], size_of(key)}; }
     [[nodiscard]] std::span<const Item> items_of(std::size_t key) const {
         return {items_.data() + begin_[key], size_of(key)};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What an executor is: who runs the work, the calling thread or a pool, the renderer's or ours.
+/// @file  The concept of an executor, which runs the work: on the calling thread, our threads or the renderer's pool.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -12,7 +12,8 @@
 namespace nephroid {
 
 /// `executor(count, task)` calls task(i) once for each i in 0 … count − 1, in any order and on any threads, and
-/// returns when all are done. Results never depend on who runs what. oneTBB and OpenMP are adapted in three lines:
+/// returns when all are done. Results never depend on which thread runs what. oneTBB and OpenMP are adapted in three
+/// lines:
 ///
 /// ```cpp
 /// const auto tbb = [](std::size_t count, auto&& task) { tbb::parallel_for(std::size_t(0), count, task); };
@@ -27,7 +28,7 @@ concept Executor = requires(E executor, std::size_t count, void (*task)(std::siz
     executor(count, task);
 };
 
-/// The same, for functions that take one by a forwarding reference E&&.
+/// The same, for parameters that are forwarding references E&&.
 template <class E>
 concept ExecutorArgument = Executor < std::remove_reference_t<E>
 & > ;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Executors and tasks of any kind behind one type each: code that is given these is compiled once for all.
+/// @file  Type erasure for executors and tasks: code that uses these types is compiled once for all executors.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -10,15 +10,15 @@
 
 namespace nephroid::detail {
 
-/// Something that can be called with an index. Refers to it: valid as long as that lives. Cheaper to compile than a
-/// std::function, which is made of some twenty templates for every lambda.
+/// A reference to a task that can be called with an index. The task must outlive it. It compiles faster than a
+/// std::function, which instantiates some twenty templates for every lambda.
 class TaskReference {
 public:
     template <class Work>
         requires(std::is_object_v<Work> && !std::same_as<std::remove_const_t<Work>, TaskReference>)
     explicit TaskReference(Work& work)
         : work_(&work),
-          call_([](const void* its, std::size_t i) { (*static_cast<Work*>(const_cast<void*>(its)))(i); }) {}
+          call_([](const void* target, std::size_t i) { (*static_cast<Work*>(const_cast<void*>(target)))(i); }) {}
 
     void operator()(std::size_t i) const { call_(work_, i); }
 
@@ -27,16 +27,17 @@ private:
     void (*call_)(const void* work, std::size_t i);
 };
 
-/// An executor that another one runs. Refers to that: valid as long as it lives.
+/// A reference to an executor, which must outlive it.
 class TaskRunner {
 public:
     template <Executor E>
         requires(!std::same_as<std::remove_const_t<E>, TaskRunner>)
     explicit TaskRunner(E& executor)
-        : executor_(&executor), run_([](const void* its, std::size_t count, const TaskReference& task) {
-              (*static_cast<E*>(const_cast<void*>(its)))(count, task);
+        : executor_(&executor), run_([](const void* target, std::size_t count, const TaskReference& task) {
+              (*static_cast<E*>(const_cast<void*>(target)))(count, task);
           }),
-          begin_([](const void* its, Phase phase) { announce(*static_cast<E*>(const_cast<void*>(its)), phase); }) {}
+          begin_(
+              [](const void* target, Phase phase) { announce(*static_cast<E*>(const_cast<void*>(target)), phase); }) {}
 
     template <class Work>
     void operator()(std::size_t count, const Work& work) const {

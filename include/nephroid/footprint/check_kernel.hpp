@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Whether a kernel gives a photon's flux once: else the whole picture is too bright or too dark.
+/// @file  Checks that a kernel's integral is 1. With another integral the whole picture would be too bright or too
+///        dark.
 #pragma once
 
 #include "nephroid/footprint/kernel.hpp"

@@ -34,7 +34,7 @@ template <Vector3 V>
 }
 } // namespace detail
 
-/// Signed |a × b|: the area that one unit of the unit disk's area is mapped to, world units squared.
+/// Signed |a × b|: the ellipse's area over that of the unit disk, world units squared.
 template <Vector3 V>
 [[nodiscard]] scalar_t<V> area_scale(const Ellipse<V>& ellipse) {
     return scalar_t<V>(detail::wide_area(ellipse.a, ellipse.b, ellipse.normal));

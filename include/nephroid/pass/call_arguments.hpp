@@ -36,7 +36,7 @@ template <class Kind, class Fallback, class First, class... Rest>
 /// A type that is probably meant to be a sequence, so that the error can say what it lacks.
 template <class A>
 concept NearlySequence = SamplesAs < std::remove_cvref_t<A>,
-float > || SamplesAs<std::remove_cvref_t<A>, double> || SaysWhetherStratified<std::remove_cvref_t<A>>;
+float > || SamplesAs<std::remove_cvref_t<A>, double> || HasStratifiedFlag<std::remove_cvref_t<A>>;
 
 template <class A>
 consteval bool explain_argument() {

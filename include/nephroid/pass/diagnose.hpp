@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What looks wrong in a pass, in sentences.
+/// @file  Diagnoses a pass: says in sentences what looks wrong.
 #pragma once
 
 #include "nephroid/transport/account.hpp"
@@ -14,7 +14,7 @@
 namespace nephroid {
 
 namespace detail {
-/// A sentence, and how large a part of the photons or their light it is about.
+/// A sentence, and the share of the photons or of their light that it is about.
 struct Finding {
     double share; ///< in [0, 1]
     std::string sentence;
@@ -32,7 +32,7 @@ struct Finding {
 
 [[nodiscard]] inline double part_of(double part, double all) { return all > 0 ? part / all : 0; }
 
-/// What became of the photons' paths.
+/// Looks for mistakes in what became of the photons' paths.
 inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
     const auto emitted = double(s.emitted.photons);
     const auto add = [&](double share, double least, const std::string& what) {
@@ -66,7 +66,7 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
         "through the surface: check that both are on one side");
 }
 
-/// What became of the light that made caustics.
+/// Looks for mistakes in what became of the light of caustics.
 inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
     const auto caustic = double(s.caustic_photons());
     const auto add = [&](std::uint64_t photons, double least, const std::string& what) {
@@ -74,7 +74,7 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
         if (share >= least && share > 0)
             found.push_back({share, percent(share) + " of the caustic photons " + what});
     };
-    const double drawn = s[Fate::splatted].flux + s[Fate::unseen].flux; // of light sheets without photons
+    const double drawn = s[Fate::splatted].flux + s[Fate::unseen].flux; // by light sheets, which count no photons
     if (s.specular_events > 0 && caustic == 0 && !(drawn > 0))
         found.push_back({1, "no photon reached a diffuse surface through a mirror or glass: " +
                                 percent(part_of(s[Fate::escaped].flux, s.emitted.flux)) +
@@ -93,8 +93,8 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
 }
 } // namespace detail
 
-/// What looks wrong in a pass, worst first: sentences with numbers, and what to do. Empty where all is well, which is
-/// no proof that the picture is right.
+/// Says what looks wrong in a pass, worst first: sentences with numbers and advice. Empty if nothing looks wrong, which
+/// does not prove that the picture is right.
 ///
 /// ```cpp
 /// for (const std::string& sentence : nephroid::diagnose(statistics))

@@ -35,7 +35,7 @@ struct TrigonometricSums {
     [[nodiscard]] double mirrored_square() const { return (cc + ss) * (cc + ss) + (sc - cs) * (sc - cs); }
 };
 
-/// Frequencies that are summed together, few enough for their sums to stay in registers.
+/// Number of frequencies that are summed together. Their sums stay in registers.
 inline constexpr std::size_t sum_lanes = 8;
 using SumLanes = std::array<float, sum_lanes>;
 
@@ -117,7 +117,7 @@ inline void add_block(std::span<const Wave> waves, const WaveTable::Entry* table
 template <Executor E = SerialExecutor>
 [[nodiscard]] std::vector<TrigonometricSums> trigonometric_sums(std::span<const WeightedPoint> points,
                                                                 std::size_t highest, E&& executor = E{}) {
-    constexpr std::size_t rows = 16, block = 64; // of a task; of points in one table
+    constexpr std::size_t rows = 16, block = 64; // rows of frequencies in a task, points in a table
     const std::size_t side = highest + 1;
     std::vector<TrigonometricSums> all(side * side);
     executor((side + rows - 1) / rows, [&](std::size_t task) {

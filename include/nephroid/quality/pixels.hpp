@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The images that quality measures take, and the checks that refuse bad ones.
+/// @file  The concept of an image's pixels, and checks of the images that are compared.
 #pragma once
 
 #include "nephroid/vector/error.hpp"

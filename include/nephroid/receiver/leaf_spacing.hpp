@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How far apart the vertices about each leaf of a tree are.
+/// @file  The spacing of the vertices around each leaf of a tree.
 #pragma once
 
 #include "nephroid/receiver/spacing.hpp"

@@ -53,7 +53,7 @@ template <std::uint32_t Base>
     return size;
 }
 
-/// An array without member functions, each call of which would cost a compiler that fills it in.
+/// An array without member functions, because calls of them slow down the compiler when it fills a large table.
 template <std::uint32_t Size>
 struct HaltonTable {
     static constexpr std::uint32_t size = Size;
@@ -66,9 +66,9 @@ inline constexpr auto halton_reversed_digits = [] {
     constexpr auto permutation = faure_permutation<Base>();
     constexpr std::uint32_t size = halton_block_size(Base);
     HaltonTable<size> reversed{};
-    // One more digit in front moves the others back by one: the table grows from itself, in few steps for each entry,
-    // as compilers take about a microsecond for each. The part of digit 0 comes last, as the other parts are made from
-    // it.
+    // An additional leading digit moves the others back by one, so the table grows from its own entries. It takes few
+    // steps for each entry, because compilers need about a microsecond for each step. The part of digit 0 is written
+    // last, because the other parts are computed from it.
     for (std::uint32_t known = 1; known < size; known *= Base) {
         for (std::uint32_t i = 0; i < known; ++i)
             reversed.entries[i] = static_cast<std::uint16_t>(reversed.entries[i] * Base);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Independent uniform random numbers with random access: the sequence to compare others with.
+/// @file  Independent uniform random numbers with random access, to compare other sequences with.
 #pragma once
 
 #include "nephroid/sequence/hash.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a sequence of sample points is, and how one photon draws numbers from it.
+/// @file  The concept of a sequence of sample points, and the sampler that draws one photon's numbers from it.
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
@@ -17,7 +17,7 @@ concept SamplesAs = requires(const S sequence, std::uint64_t index, std::uint32_
 };
 
 template <class S>
-concept SaysWhetherStratified = requires {
+concept HasStratifiedFlag = requires {
     typename std::bool_constant<S::stratified>; // a constant expression
 };
 } // namespace detail
@@ -41,7 +41,7 @@ concept SaysWhetherStratified = requires {
 /// The compiler checks the call; `tests/sequence/sequence_laws.hpp` checks the meaning, for every model.
 template <class S>
 concept SampleSequence = std::copy_constructible<S> && detail::SamplesAs<S, float> && detail::SamplesAs<S, double> &&
-    detail::SaysWhetherStratified<S>;
+    detail::HasStratifiedFlag<S>;
 
 namespace detail {
 template <class S>
@@ -49,8 +49,8 @@ consteval bool explain_sequence() {
     static_assert(SamplesAs<S, float> && SamplesAs<S, double>,
                   "nephroid: the sequence lacks sample<T>(index, dimension) const -> T for float and double "
                   "(sequence/sequence.hpp)");
-    static_assert(SaysWhetherStratified<S>, "nephroid: the sequence lacks `static constexpr bool stratified` "
-                                            "(sequence/sequence.hpp)");
+    static_assert(HasStratifiedFlag<S>, "nephroid: the sequence lacks `static constexpr bool stratified` "
+                                        "(sequence/sequence.hpp)");
     static_assert(std::copy_constructible<S>, "nephroid: the sequence cannot be copied");
     return false;
 }

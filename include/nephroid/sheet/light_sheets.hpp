@@ -46,7 +46,7 @@ SheetStatistics light_sheets(const S& scene, const L& light, Sums<V, F, R>& sums
     const std::uint64_t number = pass.first / pass.count; // of a pass among equal ones
     const LampCharts<V, F> lamps = charts_of(light, options.lamp_points, std::size_t(number) * options.lamp_points);
     const EmissionCharts<V, F>& charts = lamps.charts;
-    statistics.without_charts = lamps.without;
+    statistics.without_charts = lamps.power_without;
     const Refinement& refinement = options.refinement;
     const detail::PilotResult pilot =
         detail::PilotGrid<S, V, F>(scene, pixels, refinement, pass.limits)(charts, pass.count, checked);

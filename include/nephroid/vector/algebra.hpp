@@ -49,7 +49,7 @@ template <detail::UsesOurOperators V>
 // The functions below are objects, so that an unqualified call inside the library is never a candidate for
 // argument-dependent look-up in the vector's own namespace (glm::dot, Eigen's, ...).
 
-/// The vector of three components: make_vector<V>(x, y, z).
+/// Makes a vector from its components: make_vector<V>(x, y, z).
 template <Vector3 V>
 [[nodiscard]] constexpr V make_vector(scalar_t<V> x, scalar_t<V> y, scalar_t<V> z) {
     return vector_traits<V>::make(x, y, z);

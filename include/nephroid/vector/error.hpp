@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How the library reports a wrong call: one place, with and without exceptions.
+/// @file  Reports a wrong call, with and without exceptions.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -11,7 +11,7 @@
 #include <stdexcept>
 #endif
 
-/// For functions that look for wrong arguments: kept out of their callers, whose code they would only lengthen.
+/// Keeps functions that check arguments out of line, so that they do not lengthen their callers.
 #if defined(__GNUC__)
 #define NEPHROID_NOINLINE __attribute__((noinline))
 #else

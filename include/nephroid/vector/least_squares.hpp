@@ -34,7 +34,8 @@ public:
     ///
     /// @return  whether the rows determine them; if not, `x` is undefined
     [[nodiscard]] bool solve(std::size_t n, std::array<Value, N>& x) const {
-        constexpr double least_pivot = 1e-4; // of 1: the part of a column that the others do not explain; not rounding
+        constexpr double least_pivot =
+            1e-4; // of 1: the part of a column that is independent of the others, well above rounding
         x = {};
         std::array<double, N> scale;
         for (std::size_t i = 0; i < n; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Vectors and matrices of the plane, in double precision: what shapes a footprint.
+/// @file  Vectors and matrices of the plane in double precision, for the shapes of footprints.
 #pragma once
 
 #include "nephroid/vector/language.hpp"

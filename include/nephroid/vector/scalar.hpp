@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a scalar is, and the mathematical functions that the library calls on one.
+/// @file  The concept of a scalar, and the mathematical functions that the library calls on scalars.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -26,7 +26,7 @@ template <class T>
 concept Scalar = is_scalar<T>;
 
 template <Scalar T>
-inline constexpr T pi = T(3.141592653589793238462643383279502884197L); // libc++ 14 knows no more than a double of it
+inline constexpr T pi = T(3.141592653589793238462643383279502884197L); // libc++ 14 has it in double precision only
 
 template <>
 inline constexpr float pi<float> = std::numbers::pi_v<float>;
@@ -34,7 +34,8 @@ inline constexpr float pi<float> = std::numbers::pi_v<float>;
 template <>
 inline constexpr double pi<double> = std::numbers::pi_v<double>;
 
-/// The type in which squares of T are compared or summed: double for float, whose range they leave, else T.
+/// The type in which squares of T are compared or summed: double for float, because squares may leave its range; else
+/// T.
 template <Scalar T>
 using wider_t = std::conditional_t<std::is_same_v<T, float>, double, T>;
 

@@ -41,7 +41,7 @@ template <Scalar T>
 }
 
 /// The value where the condition holds, else zero, by a mask instead of a branch: compilers can vectorise loops over
-/// it, and a NaN that is not kept leaves no trace.
+/// it, and a NaN that is not kept has no effect.
 template <Scalar T>
 [[nodiscard]] constexpr T keep_if(bool condition, const T& value) {
     if constexpr (std::is_same_v<T, float>)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a vector is: a traits class that a renderer specialises once for its own type.
+/// @file  The concept of a vector, and the traits class that a renderer specialises for its own type.
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
@@ -21,10 +21,10 @@ namespace nephroid {
 /// };
 /// ```
 ///
-/// That is all: the type needs no operators (algebra.hpp says when its own are used), and products are computed from
-/// the components. A type whose operators are templates that accept anything may be ambiguous with the library's;
-/// `static constexpr bool native_operators = true;` in its traits then makes the library use the type's. The primary
-/// template stays undefined, so that a concept answers "no" for a foreign type instead of failing inside.
+/// The type needs no operators (algebra.hpp says when its own are used), and products are computed from the components.
+/// If the type's operators are templates that accept anything, they may be ambiguous with the library's;
+/// `static constexpr bool native_operators = true;` in the traits then makes the library use the type's operators. The
+/// primary template stays undefined, so that a concept answers "no" for a foreign type instead of failing inside.
 template <class V>
 struct vector_traits;
 
@@ -69,7 +69,7 @@ consteval bool explain_vector() {
     return false;
 }
 
-/// For class templates, where a wrong type can only be a mistake: Vector3, or an error that says why not.
+/// Vector3, or an error that says why not; for class templates, where a wrong type can only be a mistake.
 template <class V>
 concept MustBeVector = Vector3<V> || explain_vector<V>();
 } // namespace detail

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
-/// @file  The chart of a collimated beam: a parallelogram that it starts from.
+/// @file  The chart of a collimated beam: the parallelogram from which its photons start.
 #pragma once
 
 #include "nephroid/emission/chart/emission_chart.hpp"
 
 namespace nephroid {
 
+/// Makes the chart of a beam.
+///
 /// @param direction   of the beam, unit
 /// @param corner,edge_u,edge_v  photons start at corner + u edge_u + v edge_v
-/// @param flux        that passes the whole parallelogram
-/// @param is_disk     whether the light is only that of the ellipse inside of it
+/// @param flux        through the whole parallelogram
+/// @param is_disk     whether only the ellipse inside of the parallelogram emits
 template <Vector3 V, Flux F>
 [[nodiscard]] EmissionChart<V, F> beam_chart(const V& direction, const V& corner, const V& edge_u, const V& edge_v,
                                              const F& flux, bool is_disk) {

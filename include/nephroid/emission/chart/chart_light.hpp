@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A part of a lamp's chart as a light of its own: for what is traced by chance after all.
+/// @file  A part of a lamp's chart as a light, for the parts of sheets that are splatted as photons instead.
 #pragma once
 
 #include "nephroid/emission/chart/emission_chart.hpp"
@@ -38,7 +38,7 @@ public:
             power_ += flux_traits<F>::power(photon->flux) * part_.area() / (n * n);
             somewhere_ = photon;
         }
-        // Of light that no sample met a photon now and then is still traced.
+        // Light that all samples missed still gets a few photons.
         power_ = (std::max)(power_, 1e-3 * chart_.power * part_.area());
         const double width = chart_.width * (part_.u_end - part_.u_begin),
                      height = chart_.height * (part_.v_end - part_.v_begin);
@@ -64,27 +64,30 @@ public:
                 {change(*photon, u, v, true, across * shape_), change(*photon, u, v, false, across / shape_)}};
     }
 
-    /// Of the rectangle, about.
+    /// The rectangle's flux, estimated from 256 photons.
     [[nodiscard]] double power() const { return power_; }
 
 private:
-    /// The photon at a place of the rectangle, u and v from 0 to 1.
+    /// The photon at a point of the rectangle, u and v from 0 to 1.
     [[nodiscard]] std::optional<Photon<V, F, 0>> at(T u, T v) const {
         return chart_.emit(T(part_.u_begin + double(u) * (part_.u_end - part_.u_begin)),
                            T(part_.v_begin + double(v) * (part_.v_end - part_.v_begin)));
     }
 
-    /// How the ray changes over a part of the rectangle's side, from the rays a hundredth beside it.
+    /// The change of the ray over a part of the rectangle's side, from the rays at 0.01 of the side before and after.
+    ///
+    /// @param reach  that part, in sides
     [[nodiscard]] Tangent<V> change(const Photon<V, F, 0>& photon, T u, T v, bool along_u, T reach) const {
         const T step = T(0.01);
+        const T here = along_u ? u : v;
         const auto beside = [&](T by) { return along_u ? at(u + by, v) : at(u, v + by); };
-        const bool has_room = (along_u ? u : v) > step, has_more = (along_u ? u : v) < T(1) - step;
-        const auto before = has_room ? beside(-step) : std::nullopt, after = has_more ? beside(step) : std::nullopt;
+        const auto before = here > step ? beside(-step) : std::nullopt,
+                   after = here < T(1) - step ? beside(step) : std::nullopt;
         const Photon<V, F, 0>&from = before ? *before : photon, &to = after ? *after : photon;
-        const T ways = T(int(before.has_value()) + int(after.has_value()));
-        if (!(ways > T(0)))
+        const T steps = T(int(before.has_value()) + int(after.has_value()));
+        if (!(steps > T(0)))
             return {zero_vector<V>(), zero_vector<V>()};
-        const T scale = reach / (ways * step);
+        const T scale = reach / (steps * step);
         const V turned = scale * (to.direction - from.direction);
         return {scale * (to.position - from.position), turned - dot(turned, photon.direction) * photon.direction};
     }
@@ -92,11 +95,11 @@ private:
     EmissionChart<V, F> chart_;
     ChartRectangle part_;
     double power_ = 0;
-    T shape_ = T(1); ///< of a footprint that is square as the light sees it
-    std::optional<Photon<V, F, 0>> somewhere_;
+    T shape_ = T(1); ///< square root of height over width, for tangents of equal length in the chart's own units
+    std::optional<Photon<V, F, 0>> somewhere_; ///< any photon of the rectangle; points that do not shine use its ray
 };
 
-/// Joins neighbouring rectangles: those beside each other first, then those on top of each other.
+/// Joins neighbouring rectangles, first along u, then along v.
 [[nodiscard]] inline std::vector<ChartRectangle> merged(std::vector<ChartRectangle> parts) {
     const auto merge = [&parts](auto&& comes_before, auto&& joins) {
         std::sort(parts.begin(), parts.end(), comes_before);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The charts of any lamp that has some.
+/// @file  Collects the charts of a lamp or of a set of lamps.
 #pragma once
 
 #include "nephroid/emission/chart/emission_chart.hpp"
@@ -22,7 +22,7 @@ concept HasCharts = requires(const L light) {
     { light.charts() } -> std::convertible_to<EmissionCharts<typename L::vector, typename L::flux_type>>;
 };
 
-/// The chart of a lamp whose two coordinates are one already, as its domain says.
+/// The chart of a lamp whose domain is a chart: it has two coordinates and no kinks.
 template <class L>
     requires(coordinates_of<L> == 2)
 [[nodiscard]] EmissionChart<typename L::vector, typename L::flux_type> chart_of_domain(const L& light) {
@@ -35,7 +35,7 @@ template <class L>
         return Photon<V, F, 0>{photon.position, photon.direction, photon.flux, {}};
     };
     chart.power = double(light.power());
-    // How far its middle half reaches each way: in places, or for a lamp that is a point in directions.
+    // The change of the positions, or else of the directions, over the middle half of each coordinate.
     const auto reach = [&](T u, T v) {
         const auto from = chart.emit(T(0.5) - u, T(0.5) - v), to = chart.emit(T(0.5) + u, T(0.5) + v);
         return std::array<double, 2>{double(length(V(to->position - from->position))),
@@ -50,25 +50,25 @@ template <class L>
     return chart;
 }
 
-/// A lamp of some extent, whose points have charts: `charts_at(u1, u2, share)`, for a point of the lamp that stands for
-/// this share of its area.
+/// A lamp with an area whose points have charts: `charts_at(u1, u2, share)` returns those of one point, which emits
+/// this share of the lamp's flux.
 template <class L>
 concept HasLampPoints = requires(const L light, scalar_t<typename L::vector> u) {
     { light.charts_at(u, u, u) } -> std::convertible_to<EmissionCharts<typename L::vector, typename L::flux_type>>;
 };
 
-/// What sheets can be made of, and what not.
+/// The charts from which sheets can be made, and the power of the lamps that have none.
 template <Vector3 V, Flux F>
 struct LampCharts {
     EmissionCharts<V, F> charts;
-    double without = 0; ///< power of lamps that have no chart: those that declare no domain, or one with kinks, and say
-                        ///< nothing of charts
+    double power_without =
+        0; ///< of the lamps without charts: their domain is missing, or has kinks or four coordinates
 };
 
 /// The charts of a lamp or a set of lamps.
 ///
-/// @param lamp_points  how many points stand for a lamp with extent, >= 1
-/// @param first        number of the first of them in the lattice R2: passes take turns
+/// @param lamp_points  number of points that represent a lamp with an area, >= 1
+/// @param first        index of the first point in the R2 lattice; each pass takes other points
 /// Source of the lattice: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
 template <class L>
 [[nodiscard]] LampCharts<typename L::vector, typename L::flux_type> charts_of(const L& light, std::size_t lamp_points,
@@ -82,9 +82,9 @@ template <class L>
         for (const auto& any : light.lights())
             std::visit(
                 [&](const auto& one) {
-                    auto its = charts_of(one, lamp_points, first);
-                    add(std::move(its.charts));
-                    found.without += its.without;
+                    auto charts = charts_of(one, lamp_points, first);
+                    add(std::move(charts.charts));
+                    found.power_without += charts.power_without;
                 },
                 any);
     } else if constexpr (HasCharts<L>) {
@@ -101,9 +101,9 @@ template <class L>
         if (domain_of(light).kinks[0] == Kinks::nowhere)
             found.charts.push_back(chart_of_domain(light));
         else
-            found.without = double(light.power());
+            found.power_without = double(light.power());
     } else {
-        found.without = double(light.power());
+        found.power_without = double(light.power());
     }
     return found;
 }

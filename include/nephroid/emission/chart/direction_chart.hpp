@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Charts of what leaves one point: rectangles of a plane in front of it, seen from it.
+/// @file  Charts of the directions from one point: rectangles in planes in front of the point.
 #pragma once
 
 #include "nephroid/emission/chart/emission_chart.hpp"
@@ -9,7 +9,8 @@
 
 namespace nephroid {
 
-/// One rectangle: directions along axis + x frame.u + y frame.v, |x|, |y| <= slope, that lie in the cone.
+/// The chart of one rectangle: directions along axis + x frame.u + y frame.v with |x|, |y| <= slope, inside of the
+/// cone.
 ///
 /// @param intensity  intensity(direction) -> flux per steradian, of a unit direction; smooth
 template <Vector3 V, Flux F, class Intensity>
@@ -21,7 +22,7 @@ template <Vector3 V, Flux F, class Intensity>
         const T x = slope * (T(2) * u - T(1)), y = slope * (T(2) * v - T(1));
         const T r = T(1) / sqrt(T(1) + x * x + y * y);
         const V direction = r * (x * frame.u + (y * frame.v + axis));
-        // 1 − cos without cancellation; the cone's border belongs to it, rounding included.
+        // 1 − cos without cancellation. The border belongs to the cone.
         if (!cone.is_everything() && T(0.5) * length2(V(direction - cone.axis)) > cone.height)
             return std::nullopt;
         // The solid angle of dx dy is r³ [the plane at distance 1: cos / distance²].
@@ -36,7 +37,7 @@ template <Vector3 V, Flux F, class Intensity>
     return chart;
 }
 
-/// All directions in a cone: one rectangle where it is no wider than 63° from its axis, else the faces of a cube.
+/// Charts of all directions in a cone: one rectangle if its half angle is at most 63°, otherwise the faces of a cube.
 template <Vector3 V, Flux F, class Intensity>
 [[nodiscard]] EmissionCharts<V, F> cone_charts(const V& position, const Cone<V>& cone, const Intensity& intensity) {
     using T = scalar_t<V>;

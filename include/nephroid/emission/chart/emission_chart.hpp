@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// @file  A chart of a lamp: a square, each of whose points is a photon, with no kinks inside.
+/// @file  A chart of a lamp: a smooth map from the unit square to photons, without kinks.
 ///
-/// Sheets join the photons of neighbouring points. What a light's own numbers map to (emission/warp.hpp) keeps areas,
-/// but has kinks on the diagonals; a chart gives up equal areas, and keeps account of the density.
+/// Sheets join the photons of neighbouring points. A light's domain preserves areas, but its map has kinks on the
+/// diagonals (emission/warp.hpp); a chart does not preserve areas, and has a density instead.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"
@@ -13,20 +13,19 @@
 
 namespace nephroid {
 
-/// A part of a lamp's emission, by (u, v) in the unit square.
+/// A part of a lamp's emission as a function of (u, v) in the unit square.
 template <Vector3 V, Flux F>
 struct EmissionChart {
     using T = scalar_t<V>;
 
-    /// emit(u, v) -> the photon that leaves there. Its flux is a *density*: what is emitted per unit of the square's
-    /// area around it. Nothing where the lamp does not shine. Smooth where it does; called from several threads.
+    /// emit(u, v) returns the photon of a point, or nothing where the lamp does not shine. Its flux is a *density*, per
+    /// unit of the square's area. Smooth where the lamp shines; called from several threads.
     std::function<std::optional<Photon<V, F, 0>>(T, T)> emit;
-    double width = 1, height = 1; ///< of the square as the light sees it, in any unit: cells are to be about as wide
-                                  ///< as high
-    double power = 0;             ///< Σ of the flux over the square, about; shares photons among a lamp's charts
+    double width = 1, height = 1; ///< of the square's image, in any unit; cells are made about as wide as high in it
+    double power = 0; ///< approximate flux of the square; a lamp's photons are divided among its charts by it
 };
 
-/// Of a lamp or of several.
+/// The charts of a lamp or of several lamps.
 template <Vector3 V, Flux F>
 using EmissionCharts = std::vector<EmissionChart<V, F>>;
 

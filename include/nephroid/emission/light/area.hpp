@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What all area lights share: how a surface of constant radiance sends photons on, aimed or not.
+/// @file  Emission from a surface of constant radiance, with or without a target: the common part of all area lights.
 #pragma once
 
 #include "nephroid/emission/aligned_basis.hpp"
@@ -19,12 +19,12 @@ struct LightPoint {
     V normal; ///< unit, on the side that emits
 };
 
-/// Emission from points of a surface whose radiance is the same everywhere and into every direction above the horizon,
-/// and zero below.
+/// Emits photons from points of a surface. The radiance is the same at all points and in all directions above the
+/// horizon, and zero below.
 ///
-/// Towards a target that fills less than π steradian the direction is uniform in the cone towards it; photons of the
-/// cone that are below the horizon carry no flux. Elsewhere, and without a target, it has the density cos/π. The
-/// choice is the point's own, so that a light may reach into its target.
+/// If the target fills less than π steradian as seen from a point, directions are uniform in the cone towards it, and
+/// photons below the horizon carry no flux. Otherwise, and without a target, directions have the density cos/π. Each
+/// point decides for itself, so that a light may extend into its target.
 template <class V, class F>
     requires detail::MustBeFluxFor<F, V>
 class AreaEmission {
@@ -32,8 +32,9 @@ public:
     using T = scalar_t<V>;
 
     /// @param radiance  flux per area and steradian
-    /// @param target    what the light is aimed at, if it is
-    /// @param middle    of the light, and the normal there: where the map from samples to directions turns about least
+    /// @param target    bounds of what the light is aimed at, if any
+    /// @param middle    the middle of the light and its normal there, around which the map from samples to directions
+    ///                  varies least
     AreaEmission(const F& radiance, const std::optional<BoundingSphere<V>>& target, const LightPoint<V>& middle)
         : radiance_(radiance), target_(target), axis_(middle.normal) {
         if (target_) {
@@ -45,14 +46,14 @@ public:
         frame_ = frame_about(axis_);
     }
 
-    /// One of `spread.photons` photons.
+    /// Emits one of `spread.photons` photons.
     ///
     /// @param point   drawn uniformly from the light's area
-    /// @param area    that the light draws points from, world units squared
+    /// @param area    from which points are drawn, world units squared
     /// @param u1,u2   samples for the direction
     [[nodiscard]] Photon<V, F> emit(const LightPoint<V>& point, T area, T u1, T u2, const Spread<T>& spread) const {
         const T area_share = area / spread.photons;
-        if (const std::optional<Cone<V>> cone = useful_cone(point.position)) {
+        if (const std::optional<Cone<V>> cone = aimed_cone(point.position)) {
             const V direction = direction_in(*cone, frame_turned_to(cone->axis), u1, u2);
             const T cosine = (std::max)(T(0), dot(direction, point.normal));
             const T solid_angle = cone->solid_angle();
@@ -60,15 +61,15 @@ public:
                     tangents(point.normal, direction, spread.length(area), spread.length(solid_angle))};
         }
         const V direction = cosine_direction(point.normal, frame_turned_to(point.normal), concentric_disk(u1, u2));
-        const T stands_for = pi<T> / dot(direction, point.normal); // 1 / density
+        const T solid_angle = pi<T> / dot(direction, point.normal); // 1 / density
         return {point.position, direction, static_cast<F>(radiance_ * (pi<T> * area_share)),
-                tangents(point.normal, direction, spread.length(area), spread.length(stands_for))};
+                tangents(point.normal, direction, spread.length(area), spread.length(solid_angle))};
     }
 
-    /// The charts of a point, as of a lamp by itself: what it sends above its horizon, towards the target if there is
-    /// one.
+    /// The charts of one point, as if it were a lamp by itself: the directions above its horizon, or towards the target
+    /// if there is one.
     ///
-    /// @param area  that it stands for, world units squared
+    /// @param area  represented by the point, world units squared
     [[nodiscard]] EmissionCharts<V, F> charts(const LightPoint<V>& point, T area) const {
         Cone<V> cone{point.normal, T(1)};
         if (target_) {
@@ -81,7 +82,9 @@ public:
         });
     }
 
-    /// An estimate of the flux of a light of this area, from some of its points: `point(u1, u2)` at 64 places.
+    /// Estimates the flux of a light of this area from 64 of its points.
+    ///
+    /// @param point  point(u1, u2) returns a point of the light
     template <class Points>
     [[nodiscard]] double power(T area, const Points& point) const {
         constexpr int n = 8;
@@ -95,7 +98,7 @@ public:
     ///
     /// @param positions  how its positions are mapped
     [[nodiscard]] EmissionDomain domain(const EmissionPair& positions, const V& centre, T radius) const {
-        // Where some points aim and others do not the map jumps.
+        // If only some points use the cone, the map jumps.
         const bool is_smooth = !target_ || aims_everywhere(centre, radius) || aims_nowhere(centre, radius);
         return {.coordinates = 4,
                 .kinks = {is_smooth ? positions.kinks : Kinks::unknown, Kinks::diagonals},
@@ -108,35 +111,37 @@ public:
     }
 
 private:
-    /// As far from the target's centre a point aims at it: the sphere fills half a hemisphere, 1 − cos = ½.
+    /// The distance from the target's centre beyond which points aim at the target: there the sphere fills half of a
+    /// hemisphere, 1 − cos = ½.
     [[nodiscard]] T reach() const { return target_->radius / sqrt(T(0.75)); }
     [[nodiscard]] bool aims_nowhere(const V& centre, T radius) const {
         return length(V(target_->centre - centre)) + radius < T(0.999) * reach();
     }
 
-    [[nodiscard]] std::optional<Cone<V>> useful_cone(const V& position) const {
+    /// The cone towards the target, if the point aims at the target.
+    [[nodiscard]] std::optional<Cone<V>> aimed_cone(const V& position) const {
         if (!target_)
             return std::nullopt;
         const Cone<V> cone = cone_towards(*target_, position);
         return cone.height < T(0.5) ? std::optional<Cone<V>>(cone) : std::nullopt;
     }
 
-    /// The integral of the cosine over the directions that a point emits into, never zero. Exact where the horizon does
-    /// not cut the cone, about right where it does.
+    /// The integral of the cosine over the directions into which a point emits, never zero. Exact if the horizon does
+    /// not cut the cone, otherwise approximate.
     [[nodiscard]] T projected_solid_angle(const LightPoint<V>& point) const {
-        const std::optional<Cone<V>> cone = useful_cone(point.position);
+        const std::optional<Cone<V>> cone = aimed_cone(point.position);
         if (!cone)
             return pi<T>;
         const T sine = sqrt(cone->height * (T(2) - cone->height));
         const T cosine = dot(cone->axis, point.normal);
-        const T least = T(1e-3); // where these points see nothing of the target, others may
+        const T least = T(1e-3); // other points may see the target even if these do not
         if (cosine >= sine)
             return pi<T> * sine * sine * (std::max)(least, cosine);
         const T above = (std::max)(T(0), cosine + sine);
         return pi<T> * sine * ((std::max)(least * sine, above * above / T(4)));
     }
 
-    /// The frame that turns with the axis: continuous while that is less than a right angle from the middle's.
+    /// A frame about an axis. It is continuous as long as the axis is less than a right angle away from the middle's.
     [[nodiscard]] Frame<V> frame_turned_to(const V& axis) const {
         using t = vector_traits<V>;
         const Frame<V> local = frame_about(make_vector<V>(dot(axis, frame_.u), dot(axis, frame_.v), dot(axis, axis_)));

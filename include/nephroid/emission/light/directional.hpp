@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A directional light: a collimated beam from a patch in front of what it lights, such as the sun's.
+/// @file  A directional light, such as the sun: a collimated beam from a patch in front of the objects that it lights.
 #pragma once
 
 #include "nephroid/emission/aligned_basis.hpp"
@@ -18,7 +18,7 @@ namespace nephroid {
 
 /// Emits in one direction, uniformly from a patch. Draws 2 samples.
 ///
-/// The patch is what the light is aimed with: the smaller it is about the specular objects' shadow, the better.
+/// The patch aims the light. It should cover the shadow of the specular objects, and be as small as possible.
 template <class V, class F>
     requires detail::MustBeFluxFor<F, V>
 class DirectionalLight {
@@ -29,27 +29,27 @@ public:
     static constexpr EmissionDomain domain{.coordinates = 2};
 
     struct Options {
-        V direction;  ///< the way the light goes, any length but zero
-        F irradiance; ///< of a surface across the beam, flux per area, >= 0
-        /// A sphere is covered by a disk in front of it; a disk lies across the beam; a parallelogram may lie as it
-        /// likes: photons start on it, and their tangents lie in it. `smallest_beam_over` makes one for given bounds.
+        V direction;  ///< in which the light travels, any length but zero
+        F irradiance; ///< of a surface perpendicular to the beam, flux per area, >= 0
+        /// Where photons start. A sphere is replaced by the disk in front that covers it; a disk is perpendicular to
+        /// the beam; a parallelogram may have any orientation, and the photons' tangents lie in it.
+        /// `smallest_beam_over` makes a patch for given bounds.
         BeamPatch<V> patch;
-        /// All that may stand in the light's way: it starts outside of this, so that a wall between sun and glass
-        /// casts its shadow. Without it a disk or a parallelogram is where photons start, and those aimed at a sphere
-        /// start 64 radii ahead of it: what is further away than that does not count, and what they meet is found
-        /// to a few millionths of a radius only. Pass your scene's bounds.
+        /// The bounds of your scene. Photons start outside of them, so that a wall between sun and glass casts a
+        /// shadow. Without bounds, photons start on a disk or parallelogram itself, or 64 radii in front of a sphere:
+        /// objects further away than that cast no shadow, and hits are exact to a few millionths of the radius only.
         std::optional<BoundingSphere<V>> scene = std::nullopt;
     };
 
     /// Throws std::invalid_argument for a direction without length or in the patch's plane, a patch without area, a
-    /// negative irradiance, and what is not finite.
+    /// negative irradiance, and values that are not finite.
     explicit DirectionalLight(const Options& options) : irradiance_(options.irradiance) {
         validate_.flux("irradiance", options.irradiance);
         direction_ = validate_.direction("direction", options.direction);
         std::visit([this](const auto& patch) { this->cover(patch); }, options.patch);
         validate_.sphere("scene's", options.scene);
         if (options.scene)
-            origin_ = origin_ - way_out_of(*options.scene) * direction_;
+            origin_ = origin_ - distance_out_of(*options.scene) * direction_;
         else if (std::holds_alternative<BoundingSphere<V>>(options.patch))
             origin_ = origin_ - T(64) * std::get<BoundingSphere<V>>(options.patch).radius * direction_;
         validate_.positive("patch's area", area_);
@@ -60,10 +60,10 @@ public:
     [[nodiscard]] Photon<V, F> emit(S& samples, const Spread<T>& spread) const {
         const T u1 = samples.template next<T>();
         const T u2 = samples.template next<T>();
-        const DiskPoint<T> place = is_disk_ ? concentric_disk(u1, u2) : DiskPoint<T>{u1, u2};
+        const DiskPoint<T> at = is_disk_ ? concentric_disk(u1, u2) : DiskPoint<T>{u1, u2};
         const T d_length = spread.length(area_);
         const V zero = zero_vector<V>();
-        return {origin_ + (place.x * edge_u_ + place.y * edge_v_),
+        return {origin_ + (at.x * edge_u_ + at.y * edge_v_),
                 direction_,
                 static_cast<F>(irradiance_ * (area_ * cosine_ / spread.photons)),
                 {Tangent<V>{d_length * basis_.u, zero}, Tangent<V>{d_length * basis_.v, zero}}};
@@ -73,12 +73,12 @@ public:
         return {.coordinates = 2, .kinks = {is_disk_ ? Kinks::diagonals : Kinks::nowhere}};
     }
 
-    /// Exact: irradiance times the patch's area as the beam sees it.
+    /// Exact: irradiance times the patch's area, projected along the beam.
     [[nodiscard]] double power() const {
         return flux_traits<F>::power(static_cast<F>(irradiance_ * (area_ * cosine_)));
     }
 
-    /// Its patch; of a disk, the square about it.
+    /// One chart: the parallelogram, or the square around the disk.
     [[nodiscard]] EmissionCharts<V, F> charts() const {
         if (!is_disk_)
             return {beam_chart<V, F>(direction_, origin_, edge_u_, edge_v_,
@@ -87,7 +87,7 @@ public:
                                  static_cast<F>(irradiance_ * (T(4) / pi<T> * area_)), true)};
     }
 
-    /// The unit direction that the light goes.
+    /// The direction in which the light travels, unit.
     [[nodiscard]] const V& direction() const { return direction_; }
 
 private:
@@ -125,8 +125,8 @@ private:
             validate_.complain("direction", detail::text_of(direction_), "lies in the patch's plane; turn the patch");
     }
 
-    /// How far the patch has to go back against the light until all of it is outside of the scene.
-    [[nodiscard]] T way_out_of(const BoundingSphere<V>& scene) const {
+    /// The distance by which the patch has to move against the light until all of it is outside of the scene.
+    [[nodiscard]] T distance_out_of(const BoundingSphere<V>& scene) const {
         const V last = is_disk_ ? origin_ : origin_ + (T(0.5) * edge_u_ + T(0.5) * edge_v_);
         const T tilt = is_disk_ ? T(0) : T(0.5) * (abs(dot(edge_u_, direction_)) + abs(dot(edge_v_, direction_)));
         const T ahead = dot(V(last - scene.centre), direction_) + tilt;

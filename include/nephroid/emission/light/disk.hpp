@@ -6,8 +6,8 @@
 
 namespace nephroid {
 
-/// Emits from a disk along its normal's side, aimed as `AreaEmission` says. Draws 4 samples: two for the position, two
-/// for the direction.
+/// Emits from a disk, on the side of its normal, with or without a target (see `AreaEmission`). Draws 4 samples: two
+/// for the position, two for the direction.
 template <class V, class F>
     requires detail::MustBeFluxFor<F, V>
 class DiskLight {
@@ -42,14 +42,14 @@ public:
         return emission_.domain({Kinks::diagonals, DomainEdge::ends}, middle_.position, radius_);
     }
 
-    /// The charts of a point of the light that stands for a share of its area.
+    /// The charts of one point of the light, which emits a share of the light's flux.
     ///
-    /// @param u1,u2  which point, in [0, 1]
+    /// @param u1,u2  choose the point, in [0, 1]
     [[nodiscard]] EmissionCharts<V, F> charts_at(T u1, T u2, T share) const {
         return emission_.charts(point(u1, u2), share * area_);
     }
 
-    /// Exact without a target, π radiance × area; else from 64 points of the disk.
+    /// Exact without a target, π radiance × area; otherwise estimated from 64 points of the disk.
     [[nodiscard]] double power() const { return power_; }
 
 private:

@@ -11,9 +11,10 @@
 
 namespace nephroid {
 
-/// Emits from triangles, on the side from which their vertices run counter-clockwise, aimed as `AreaEmission` says.
-/// Draws 4 samples: two for the position, two for the direction. The first chooses the triangle by area and, stretched
-/// to [0, 1) again, a coordinate in it; it is drawn as a double, so that this leaves digits enough.
+/// Emits from triangles, on the side from which their vertices run counter-clockwise, with or without a target (see
+/// `AreaEmission`). Draws 4 samples: two for the position, two for the direction. The first one chooses a triangle in
+/// proportion to its area, and its remainder, scaled to [0, 1), is a coordinate in the triangle. It is drawn as a
+/// double, so that enough digits remain.
 template <class V, class F>
     requires detail::MustBeFluxFor<F, V>
 class MeshLight {
@@ -25,7 +26,7 @@ public:
     using Triangle = std::array<V, 3>;
 
     struct Options {
-        std::vector<Triangle> triangles; ///< vertices, world units; those without area are left out
+        std::vector<Triangle> triangles; ///< vertices, world units; triangles without area are left out
         F radiance;                      ///< flux per area and steradian, >= 0
         std::optional<BoundingSphere<V>> target = std::nullopt;
     };
@@ -47,7 +48,7 @@ public:
         return emission_.domain({Kinks::unknown, DomainEdge::ends}, faces_.front().corner, T(0));
     }
 
-    /// Exact without a target, π radiance × area; else from 64 points of the triangles.
+    /// Exact without a target, π radiance × area; otherwise estimated from 64 points of the triangles.
     [[nodiscard]] double power() const { return power_; }
 
 private:
@@ -58,7 +59,7 @@ private:
         V normal;
     };
 
-    /// Faces with the sum of the areas up to and with each of them.
+    /// Faces, and the sums of their areas up to and including each face.
     struct Faces {
         std::vector<Face> faces;
         std::vector<double> area_up_to;
@@ -101,11 +102,11 @@ private:
     }
 
     [[nodiscard]] LightPoint<V> point(double u1, T u2) const {
-        const double place = u1 * area_up_to_.back();
-        const auto found = std::upper_bound(area_up_to_.begin(), area_up_to_.end() - 1, place);
+        const double area = u1 * area_up_to_.back();
+        const auto found = std::upper_bound(area_up_to_.begin(), area_up_to_.end() - 1, area);
         const std::size_t i = static_cast<std::size_t>(found - area_up_to_.begin());
         const double before = i > 0 ? area_up_to_[i - 1] : 0;
-        const double rest = (std::clamp)((place - before) / (area_up_to_[i] - before), 0.0, 1.0);
+        const double rest = (std::clamp)((area - before) / (area_up_to_[i] - before), 0.0, 1.0);
         const Face& face = faces_[i];
         const Barycentrics<T> b = triangle_point(T(rest), u2);
         return {face.corner + (b.b1 * face.edge_1 + b.b2 * face.edge_2), face.normal};

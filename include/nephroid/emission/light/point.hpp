@@ -12,7 +12,7 @@
 namespace nephroid {
 
 namespace detail {
-/// The tangents of a photon from a point: no extent, and any two orthogonal changes of direction.
+/// The tangents of a photon from a point: two orthogonal changes of direction, and none of position.
 template <Vector3 V>
 [[nodiscard]] PhotonDifferential<V, 2> point_tangents(const V& direction, scalar_t<V> d_direction_length) {
     const Frame<V> frame = frame_about(direction);
@@ -21,8 +21,8 @@ template <Vector3 V>
 }
 } // namespace detail
 
-/// Emits from one point, uniformly into the cone towards its target, or into every direction: without a target, and
-/// from inside of it. Draws 2 samples.
+/// Emits from one point, uniformly into the cone towards its target, or into every direction if it has no target or is
+/// inside of it. Draws 2 samples.
 template <class V, class F>
     requires detail::MustBeFluxFor<F, V>
 class PointLight {
@@ -60,7 +60,7 @@ public:
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
-        const EmissionPair pair = directions_of(cone_);
+        const EmissionPair pair = direction_pair(cone_);
         return {.coordinates = 2, .kinks = {pair.kinks}, .edges = {pair.edges, pair.edges}};
     }
 

@@ -6,8 +6,8 @@
 
 namespace nephroid {
 
-/// Emits from the parallelogram corner + [0, 1] edge_u + [0, 1] edge_v, on the side of edge_u × edge_v, aimed as
-/// `AreaEmission` says. Draws 4 samples: two for the position, two for the direction.
+/// Emits from the parallelogram corner + [0, 1] edge_u + [0, 1] edge_v, on the side of edge_u × edge_v, with or
+/// without a target (see `AreaEmission`). Draws 4 samples: two for the position, two for the direction.
 template <class V, class F>
     requires detail::MustBeFluxFor<F, V>
 class QuadLight {
@@ -43,14 +43,14 @@ public:
                                 T(0.5) * (length(edge_u_) + length(edge_v_)));
     }
 
-    /// The charts of a point of the light that stands for a share of its area.
+    /// The charts of one point of the light, which emits a share of the light's flux.
     ///
-    /// @param u1,u2  which point, in [0, 1]
+    /// @param u1,u2  choose the point, in [0, 1]
     [[nodiscard]] EmissionCharts<V, F> charts_at(T u1, T u2, T share) const {
         return emission_.charts(point(u1, u2), share * area_);
     }
 
-    /// Exact without a target, π radiance × area; else from 64 points of the parallelogram.
+    /// Exact without a target, π radiance × area; otherwise estimated from 64 points of the parallelogram.
     [[nodiscard]] double power() const { return power_; }
 
 private:

@@ -6,8 +6,9 @@
 
 namespace nephroid {
 
-/// Emits from a sphere outwards, aimed as `AreaEmission` says; aimed only from the cap whose points have something of
-/// the target above their horizon. Draws 4 samples: two for the position, two for the direction.
+/// Emits outwards from a sphere, with or without a target (see `AreaEmission`). With a target, photons start only in
+/// the cap from which a part of the target is above the horizon. Draws 4 samples: two for the position, two for the
+/// direction.
 template <class V, class F>
     requires detail::MustBeFluxFor<F, V>
 class SphereLight {
@@ -37,21 +38,21 @@ public:
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
-        EmissionDomain exact = emission_.domain(directions_of(cap_), centre_, radius_);
-        // Directions about normals turn over where these lie across the middle one.
+        EmissionDomain exact = emission_.domain(direction_pair(cap_), centre_, radius_);
+        // The frames about normals are discontinuous at a right angle to the middle one.
         if (cap_.height >= T(1) && !emission_.aims_everywhere(centre_, radius_))
             exact.kinks[0] = Kinks::unknown;
         return exact;
     }
 
-    /// The charts of a point of the light that stands for a share of its area.
+    /// The charts of one point of the light, which emits a share of the light's flux.
     ///
-    /// @param u1,u2  which point, in [0, 1]
+    /// @param u1,u2  choose the point, in [0, 1]
     [[nodiscard]] EmissionCharts<V, F> charts_at(T u1, T u2, T share) const {
         return emission_.charts(point(u1, u2), share * area_);
     }
 
-    /// Exact without a target, π radiance × area; else from 64 points of the cap.
+    /// Exact without a target, π radiance × area; otherwise estimated from 64 points of the cap.
     [[nodiscard]] double power() const { return power_; }
 
 private:
@@ -62,7 +63,7 @@ private:
                     LightPoint<V>{options.centre + options.radius * cap.axis, cap.axis}),
           power_(emission_.power(area_, [this](T u1, T u2) { return point(u1, u2); })) {}
 
-    /// The normals n for which the target reaches above the plane (y − centre) · n = radius.
+    /// The normals n for which a part of the target is above the tangent plane (y − centre) · n = radius.
     [[nodiscard]] static Cone<V> validated_cap(const Options& options) {
         const detail::Validator validate("SphereLight");
         validate.finite("centre", options.centre);
@@ -81,7 +82,7 @@ private:
                               "lies inside of the light, where it sends nothing; aim it at what is outside");
         if (reach >= T(2) * distance)
             return every_direction<V>(T(1) / distance * towards);
-        constexpr T up = T(1) + T(8) * std::numeric_limits<T>::epsilon(); // no normal is to be missed
+        constexpr T up = T(1) + T(8) * std::numeric_limits<T>::epsilon(); // rounded up, to miss no normal
         return {T(1) / distance * towards, (std::min)(T(2), up * reach / distance)};
     }
 

@@ -6,8 +6,8 @@
 
 namespace nephroid {
 
-/// Emits from one point, uniformly into its outer cone or, where that is the smaller one, into the cone towards its
-/// target; what the falloff leaves is in each photon's flux. Draws 2 samples.
+/// Emits from one point, uniformly into its outer cone or into the cone towards its target, whichever is smaller. The
+/// falloff scales each photon's flux. Draws 2 samples.
 template <class V, class F>
     requires detail::MustBeFluxFor<F, V>
 class SpotLight {
@@ -19,7 +19,7 @@ public:
 
     struct Options {
         V position;
-        V axis;      ///< the way it shines, any length but zero
+        V axis;      ///< the direction in which it shines, any length but zero
         T cos_inner; ///< within this angle of the axis the intensity is full; in (cos_outer, 1]
         T cos_outer; ///< beyond this angle it is zero; in [-1, cos_inner)
         F intensity; ///< flux per steradian on the axis, >= 0
@@ -65,7 +65,7 @@ public:
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
-        const EmissionPair pair = directions_of(cone_);
+        const EmissionPair pair = direction_pair(cone_);
         return {.coordinates = 2, .kinks = {pair.kinks}, .edges = {pair.edges, pair.edges}};
     }
 
@@ -75,7 +75,7 @@ public:
         });
     }
 
-    /// The share of the intensity that goes into a unit direction, in [0, 1].
+    /// The intensity in a unit direction over that on the axis, in [0, 1].
     /// Source: glTF extension KHR_lights_punctual, "Inner and outer cone angles".
     [[nodiscard]] T falloff(const V& direction) const {
         const T height = T(0.5) * length2(V(direction - axis_)); // 1 − cos, without cancellation
@@ -83,13 +83,13 @@ public:
         return square((std::clamp)(share, T(0), T(1)));
     }
 
-    /// Exact without a target; else from 256 directions.
+    /// Exact without a target; otherwise estimated from 256 directions.
     [[nodiscard]] double power() const { return power_; }
 
 private:
     [[nodiscard]] double estimate_power() const {
         constexpr int n = 16;
-        constexpr T least = T(1e-3); // whom all directions miss may still be lit
+        constexpr T least = T(1e-3); // the target may be lit even if all samples are dark
         T mean = T(0);
         for (int i = 0; i < n * n; ++i) {
             const T u1 = (T(i % n) + T(0.5)) / T(n), u2 = (T(i / n) + T(0.5)) / T(n);
@@ -105,7 +105,7 @@ private:
     F intensity_;
     T inner_height_;
     T outer_height_;
-    T ring_height_; ///< between the two; from the cosines, as the heights may round to the same
+    T ring_height_; ///< outer minus inner; from the cosines, because the heights may round to the same number
     Cone<V> cone_ = every_direction<V>();
     Frame<V> frame_ = frame_about(cone_.axis);
     double power_ = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  All lights that come with the library, and a set of any of them.
+/// @file  A set of lights of any of the library's types.
 #pragma once
 
 #include "nephroid/emission/light/directional.hpp"
@@ -13,7 +13,7 @@
 
 namespace nephroid {
 
-/// A scene's lights, of any of the library's types: a `std::vector` of them makes one.
+/// A scene's lights, of any of the library's types. Constructed from a `std::vector` of lights.
 template <Vector3 V, Flux F>
 using StandardLights = LightSet<PointLight<V, F>, SpotLight<V, F>, DirectionalLight<V, F>, DiskLight<V, F>,
                                 QuadLight<V, F>, SphereLight<V, F>, MeshLight<V, F>>;

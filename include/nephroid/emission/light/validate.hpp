@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What all lights ask of their parameters, and how they say that it is not so.
+/// @file  Checks of the lights' parameters, with error messages.
 #pragma once
 
 #include "nephroid/emission/flux.hpp"
@@ -11,7 +11,7 @@
 
 namespace nephroid::detail {
 
-/// Complains about one parameter of one light: "nephroid::PointLight: radius -1 is not positive; pass ...".
+/// Checks parameters of one light; throws messages such as "nephroid::PointLight: radius -1 is not positive; pass ...".
 class Validator {
 public:
     explicit constexpr Validator(const char* light) : light_(light) {}
@@ -22,7 +22,7 @@ public:
             complain(name, text_of(v), "is not finite; pass world coordinates");
     }
 
-    /// The vector made a unit one; it may be as short or long as the scalar type allows.
+    /// Normalises a vector, which may be as short or long as the scalar type allows.
     template <Vector3 V>
     [[nodiscard]] NEPHROID_NOINLINE V direction(const char* name, const V& v) const {
         using T = scalar_t<V>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The light that is reflected so often inside a half cylinder mirror that its chords are nearly arcs.
+/// @file  Light that is reflected so often inside a half cylinder mirror that its chords are nearly arcs.
 #pragma once
 
 #include "nephroid/quality/reference/quadrature.hpp"
