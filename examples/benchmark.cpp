@@ -25,7 +25,7 @@ namespace bench = nephroid::examples::benchmarks;
 
 using Rows = void (*)(const bench::Effort&);
 
-/// In the order that they are run in.
+/// In the order in which they run.
 constexpr std::array<std::pair<const char*, Rows>, 13> rows = {{{"splat", bench::benchmark_splatting},
                                                                 {"build", bench::benchmark_build},
                                                                 {"order", bench::benchmark_order},

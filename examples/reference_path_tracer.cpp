@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Path traces a built-in case whose light has area: a picture to compare others with, and how sure it is.
+/// @file  Path traces a built-in case whose light has an area: a reference picture with its standard error.
 #include "common/command_line.hpp"
 #include "common/image/write.hpp"
 #include "common/path_tracer/path_tracer.hpp"
@@ -26,7 +26,7 @@ struct Request {
     std::optional<std::filesystem::path> standard_error;
 };
 
-/// Those of the built-in cases that paths can find the light of.
+/// The built-in cases whose light paths can hit.
 [[nodiscard]] std::string traceable_names() {
     std::string names;
     for (const std::string_view name : builtin_case_names)
@@ -80,12 +80,12 @@ struct Request {
 [[nodiscard]] Samples as_picture(const std::vector<double>& pixels, const PictureSize& size) {
     std::vector<float> samples;
     samples.reserve(pixels.size());
-    for (const double pixel : pixels) // infinite: after one pass nothing is known
+    for (const double pixel : pixels) // infinite after one pass, which tells nothing about the error
         samples.push_back(static_cast<float>((std::min)(pixel, double(std::numeric_limits<float>::max()))));
     return {size.width, size.height, 1, std::move(samples)};
 }
 
-/// How sure a picture is.
+/// The accuracy of a picture.
 struct Certainty {
     double mean = 0;           ///< irradiance
     double relative_error = 0; ///< mean of standard error over irradiance, where that is above a hundredth of its mean

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Measures what is claimed, against the truth: `study compare`, `study smoothing`, `study relax`. Each prints
-///        tables, and leaves figures, plots, pictures and a page with all of them in a folder.
+/// @file  Measures the library's claims against exact results: `study compare`, `study smoothing`, `study relax`. Each
+///        prints tables, and leaves figures, plots, pictures and a page with all of them in a folder.
 #include "common/study/compare/command.hpp"
 #include "common/study/relax/command.hpp"
 #include "common/study/smoothing/command.hpp"

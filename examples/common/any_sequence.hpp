@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The sample sequences that the programs' users choose from by name.
+/// @file  The sample sequences that users of the programs choose by name.
 #pragma once
 
 #include "common/command_line.hpp"
@@ -24,7 +24,8 @@ enum class SequenceKind { halton, sobol, random };
 
 [[nodiscard]] inline const char* name_of(SequenceKind sequence) { return name_in(sequence_names(), sequence); }
 
-/// Either of the stratified ones, by a branch for each number: what takes a sequence is compiled once for both.
+/// Halton's or Sobol's sequence, chosen by a branch for each number, so that code that takes a sequence is compiled
+/// once.
 class StratifiedSequence {
 public:
     static constexpr bool stratified = true;

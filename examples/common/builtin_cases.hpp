@@ -19,15 +19,15 @@
 
 namespace nephroid::examples {
 
-/// A rectangle of the floor z = 0 that is looked at from above.
+/// A rectangle of the floor z = 0, seen from above.
 struct FilmRectangle {
     double x_min, x_max;
     double y_min, y_max;
 };
 
-/// Sunlight aimed at the ring's mirror exactly: as seen along the light the half cylinder is no parallelogram, but its
-/// silhouette in the upright plane x = -1/16 is the rectangle |y| < 1, 0 < z < height, each column raised by what the
-/// light falls on its way, and that keeps areas.
+/// Sunlight that is aimed exactly at the ring's mirror. Seen along the light the half cylinder is no parallelogram. But
+/// its silhouette in the upright plane x = -1/16 is the rectangle |y| < 1, 0 < z < height with each column raised by
+/// the height that the light loses on its way, and this shear preserves areas.
 template <class T, Flux F>
 class RingBeam {
 public:
@@ -48,7 +48,7 @@ public:
 
     template <SampleSource<T> S>
     [[nodiscard]] Photon<Vec3<T>, F> emit(S& samples, const Spread<T>& spread) const {
-        // The first sample, which sequences stratify best, goes along the longer side.
+        // The first sample, which sequences stratify best, is for the longer side.
         const T y = T(2) * samples.template next<T>() - T(1);
         const T z = height_ * samples.template next<T>();
         const T x = std::sqrt((T(1) - y) * (T(1) + y)), start = T(-1) / T(16);
@@ -73,7 +73,7 @@ private:
 template <class T, Flux F>
 using CaseLight = LightSet<DirectionalLight<Vec3<T>, F>, PointLight<Vec3<T>, F>, RingBeam<T, F>, DiskLight<Vec3<T>, F>>;
 
-/// A scene above the diffuse floor z = 0, its light, and where to look. The picture is the irradiance on the floor.
+/// A scene above the diffuse floor z = 0, its light, and the film. The picture is the irradiance on the floor.
 template <class T, Flux F = Vec3<T>>
 struct BuiltinCase {
     Scene<T, F> scene;
@@ -81,7 +81,7 @@ struct BuiltinCase {
     FilmRectangle film;
     bool periodic = false; ///< with period 1 along x and y; a hit on the floor is wrapped into the unit square, so a
                            ///< footprint over its border needs eye vertices (ghosts) on the other side as well
-    Emitters<T, F> emitters = {}; ///< the light once more, as what paths from the floor can hit; none for
+    Emitters<T, F> emitters = {}; ///< the light again, as surfaces that paths from the floor can hit; empty for
                                   ///< a light without area
 };
 
@@ -122,9 +122,9 @@ template <class T, Flux F>
     return {ring_scene<T, F>(height), CaseLight<T, F>({sun}), film, false};
 }
 
-/// The ring lit by a disk four units away instead of the sun. On the way to the mirror's inner side nothing is in the
-/// way, as every ray that comes from the disk enters the cylinder where there is no mirror. The irradiance at the
-/// origin, were there no mirror, is 1: the disk fills π r²/(r² + d²) of projected solid angle, seen at an angle.
+/// The ring, lit by a disk four units away instead of the sun. Nothing blocks the mirror's inner side, because every
+/// ray from the disk enters the cylinder through its open half. Without the mirror the irradiance at the origin would
+/// be 1: the disk fills a projected solid angle of π r²/(r² + d²), seen at an angle.
 template <class T, Flux F>
 [[nodiscard]] BuiltinCase<T, F> ring_disk_case(FilmRectangle film) {
     const double radius = 0.15, distance = 4;
@@ -165,9 +165,9 @@ template <class T, Flux F>
 
 } // namespace detail
 
-/// @param name     one of `builtin_case_names`; nothing comes back for another one
-/// @param fresnel  whether water and glass reflect a part of the light away (it is absorbed: what is known exactly are
-///                 the caustics of refracted light alone)
+/// @param name     one of `builtin_case_names`; for another name, nothing is returned
+/// @param fresnel  whether water and glass reflect a part of the light. This part is absorbed, because only the
+///                 caustics of refracted light are known exactly
 /// The ring's number of reflections is a limit on the walk, not on the scene.
 template <class T, Flux F = Vec3<T>>
 [[nodiscard]] std::optional<BuiltinCase<T, F>> builtin_case(std::string_view name, bool fresnel) {

@@ -16,8 +16,9 @@ namespace nephroid::examples {
 
 namespace {
 
-/// Places in a pixel, from 0 to 1: the centre, a square grid, or a lattice for numbers that are no squares.
-[[nodiscard]] std::vector<std::array<double, 2>> places_in_pixel(unsigned samples) {
+/// The samples' positions in a pixel, from 0 to 1: the centre, a square grid, or a lattice if their number is no
+/// square.
+[[nodiscard]] std::vector<std::array<double, 2>> positions_in_pixel(unsigned samples) {
     std::vector<std::array<double, 2>> places;
     const auto side = static_cast<unsigned>(std::lround(std::sqrt(double(samples))));
     for (unsigned i = 0; i < samples; ++i) {
@@ -33,8 +34,8 @@ namespace {
 
 [[nodiscard]] double amplitude_of(const std::string& wave) { return wave == "wave-prefocal" ? 0.012 : 0.04; }
 
-/// How much longer than at the lamp a footprint can be on the wave's floor: the largest change of where light lands
-/// with where it enters, along the wave's gradient, by differences over one period.
+/// How much longer a footprint can be on the wave's floor than at the lamp: the largest derivative, by differences over
+/// one period, of the landing position by the entry position, along the wave's gradient.
 [[nodiscard]] double wave_stretch(double amplitude) {
     constexpr int steps = 4096;
     const double k = 2 * std::numbers::pi, gradient = std::sqrt(5.0); // of 2x + y
@@ -88,7 +89,7 @@ PixelFootprint<glm::vec3> footprint_of(const BuiltinFilm& film) {
 std::vector<FloorVertex> floor_vertices(const BuiltinFilm& film, std::optional<double> ghosts) {
     const double dx = (film.view.x_max - film.view.x_min) / double(film.width);
     const double dy = (film.view.y_max - film.view.y_min) / double(film.height);
-    const auto places = places_in_pixel(film.samples);
+    const auto places = positions_in_pixel(film.samples);
     const int periods = ghosts ? static_cast<int>(std::ceil(*ghosts)) : 0;
     const auto is_near = [&](double coordinate) {
         return !ghosts || (coordinate >= -*ghosts && coordinate <= 1 + *ghosts);

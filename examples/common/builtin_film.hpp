@@ -21,7 +21,7 @@ namespace nephroid::examples {
 
 [[nodiscard]] bool is_builtin(const std::string& name);
 
-/// What of a built-in case is looked at, and how closely.
+/// A film of a built-in case, and its resolution.
 struct BuiltinFilm {
     std::string scene; ///< one of `builtin_case_names`
     FilmRectangle view;
@@ -34,10 +34,10 @@ struct BuiltinFilm {
     [[nodiscard]] std::size_t pixels() const { return width * height; }
 };
 
-/// Throws UsageError, naming the option of the command line, for what the case does not have.
+/// Throws UsageError, with the name of the option, for options that the case does not have.
 void check(const BuiltinFilm& film);
 
-/// How far a built-in case lets photons go: none is lost to roulette.
+/// The limits of walks in a built-in case: no roulette.
 [[nodiscard]] WalkLimits walk_limits(const BuiltinFilm& film);
 
 /// Where a film's eye path ends on the floor.
@@ -48,7 +48,7 @@ struct FloorVertex {
 
 [[nodiscard]] inline glm::vec3 upwards(const FloorVertex&) { return {0, 0, 1}; }
 
-/// What each of the film's eye paths stands for: its part of the pixel, along the floor's axes.
+/// The pixel footprint of each of the film's eye paths: its part of the pixel, along the floor's axes.
 [[nodiscard]] PixelFootprint<glm::vec3> footprint_of(const BuiltinFilm& film);
 
 /// The film's vertices, pixel by pixel.
@@ -56,14 +56,14 @@ struct FloorVertex {
 ///                footprint over its border finds the vertices on the other side
 [[nodiscard]] std::vector<FloorVertex> floor_vertices(const BuiltinFilm& film, std::optional<double> ghosts = {});
 
-/// How far beyond a periodic floor's border its ghosts must reach: the longest radius that a footprint of smoothing s
-/// can have among so many emitted photons, and two pixels.
+/// The distance beyond a periodic floor's border up to which ghosts are needed: the largest radius of a footprint with
+/// this smoothing and number of emitted photons, plus two pixels.
 [[nodiscard]] double ghost_margin(const BuiltinFilm& film, double smoothing, double emitted);
 
 /// Whether the exact irradiance is known.
 [[nodiscard]] bool has_exact_picture(const std::string& scene);
 
-/// The exact irradiance, pixel by pixel, row 0 at the bottom; nothing for a case whose answer is not known exactly.
+/// The exact irradiance, pixel by pixel, row 0 at the bottom; nothing for a case without an exact solution.
 [[nodiscard]] std::optional<std::vector<double>> exact_picture(const BuiltinFilm& film, unsigned threads);
 
 } // namespace nephroid::examples

@@ -19,7 +19,7 @@
 
 namespace nephroid::examples {
 
-/// Asks for an object's cache lines ahead of time, where the compiler knows how.
+/// Prefetches an object's cache lines, if the compiler can.
 template <class Object>
 void prefetch(const Object* object) {
 #if defined(__GNUC__)
@@ -68,9 +68,9 @@ public:
 
     /// Visits the leaves whose boxes the ray meets, the nearest ones first, as far as possible.
     ///
-    /// @param visit  `visit(leaf number, t_max) -> T`: the distance beyond which nothing matters any more: that of a
-    ///               nearer hit, t_max if there is none, or less than t_min to end the search
-    /// @param expect  `expect(leaf number)` is told of leaves that may be visited soon: for prefetching
+    /// @param visit  `visit(leaf number, t_max) -> T` returns the new t_max: the distance of a nearer hit, the same
+    ///               t_max if there is none, or less than t_min to end the search
+    /// @param expect  `expect(leaf number)` is called for leaves that may be visited soon, for prefetching
     template <class Visit, class Expect>
     void traverse(const Ray<T>& ray, Visit&& visit, Expect&& expect) const {
         if (nodes_.empty() || !(dot(ray.direction, ray.direction) >= 0)) // absent children are no number either
@@ -138,7 +138,7 @@ private:
     static constexpr int max_heuristic_depth = 40; ///< from there on the halves are equal: 16 levels for 2^32
     static constexpr std::size_t max_pending = (width - 1) * (max_heuristic_depth + 16) + width;
 
-    /// Prefetches what is put on the stack while nearer children are visited.
+    /// Prefetches the children on the stack while nearer ones are visited.
     template <class Expect>
     void announce(std::uint32_t child, Expect& expect) const {
         if (child & leaf_flag)

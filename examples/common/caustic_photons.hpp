@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  How many photons to emit for the caustic photons that the user wants, or what is wrong with the scene.
+/// @file  Computes how many photons to emit for a wanted number of caustic photons, or says what is wrong with the
+///        scene.
 #pragma once
 
 #include "nephroid/execution/thread_executor.hpp"
@@ -12,7 +13,7 @@
 
 namespace nephroid::examples {
 
-/// Throws std::runtime_error if no photon makes a caustic, with what `diagnose` says of the first few thousand.
+/// Throws std::runtime_error if no photon makes a caustic, with the sentences of `diagnose` for the first few thousand.
 template <class S, Light L, SampleSequence Sequence>
 [[nodiscard]] std::uint64_t emit_for(const S& scene, const L& light, std::uint64_t wanted, const WalkLimits& limits,
                                      const Sequence& sequence, ThreadExecutor& threads) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Reading a program's options: numbers, names and sizes, refused in one line that names the option.
+/// @file  Reads a program's options: numbers, names and sizes. One line that names the option says what is wrong.
 #pragma once
 
 #include <array>
@@ -15,16 +15,16 @@ class App;
 
 namespace nephroid::examples {
 
-/// A command line that cannot be done; `what()` is one line.
+/// A wrong command line; `what()` is one line.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// What an option's names stand for.
+/// The names of an option's values.
 template <class Kind>
 using Names = std::map<std::string, Kind>;
 
-/// The kind that `text` names. Throws UsageError with all names that there are.
+/// The kind with the name `text`. Throws UsageError, with all valid names, if there is none.
 template <class Kind>
 [[nodiscard]] Kind chosen(const std::string& option, const std::string& text, const Names<Kind>& names) {
     const auto found = names.find(text);
@@ -51,7 +51,7 @@ template <class Kind>
 /// Pixels of a picture.
 struct PictureSize {
     std::size_t width, height;
-    bool height_given; ///< else the height is the width
+    bool height_given; ///< otherwise the height is the width
 };
 
 /// "640x360" or "512". Throws UsageError for less than 1 and more than 32768 pixels a side.
@@ -60,7 +60,7 @@ struct PictureSize {
 /// Throws UsageError unless x_min < x_max and y_min < y_max, all finite.
 void check_view(const std::array<double, 4>& view);
 
-/// Throws UsageError for more threads than anybody has.
+/// Throws UsageError for an absurd number of threads.
 void check_threads(unsigned threads);
 
 /// Parses the command line.

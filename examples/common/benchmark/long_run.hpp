@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A long run: whether the error of very many photons is what their number says.
+/// @file  A long run: whether the error of very many photons falls with their number as expected.
 #pragma once
 
 #include "common/benchmark/passes.hpp"
@@ -30,7 +30,7 @@ struct Expectation {
 
 /// Random photons on wave-focused, 256 x 256, two threads.
 inline void benchmark_long_run(const Effort& effort) {
-    constexpr std::size_t side = 256, fine = 32; // cells a pixel: with 8 the yardstick itself is 0.0027 off
+    constexpr std::size_t side = 256, fine = 32; // cells per pixel: with 8 the expectation itself is 0.0027 off
     const auto builtin = builtin_case<float, float>("wave-focused", false).value();
     BuiltinFilm film{.scene = "wave-focused", .view = builtin.film, .width = side, .height = side};
     const auto vertices = floor_vertices(film, 1.0 / 16);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The filter matrix against inverting the matrix [a b n], of which it is the upper two rows.
+/// @file  Compares `filter_matrix` with inverting the whole matrix [a b n]; both give the upper two rows of the
+///        inverse.
 #pragma once
 
 #include "common/benchmark/measure.hpp"
@@ -45,8 +46,8 @@ template <class T>
     return inverse;
 }
 
-/// Inverts every ellipse's matrix for itself, as photons come: the processor works at several of them. All of a result
-/// is written down, so that the compiler cannot leave the row out that is not needed.
+/// Inverts independent matrices, as for photons, so that the processor can work on several at once. The whole result is
+/// stored, so that the compiler cannot leave out a row that is not used.
 template <class V, class Invert>
 class EachAlone {
 public:
@@ -65,8 +66,8 @@ private:
     Invert invert_;
 };
 
-/// Inverts them one after another: the next has to wait for the one before, as it starts from what that gave. The other
-/// rows are added up.
+/// Inverts dependent matrices: each one starts from the result before it, and so has to wait. The other rows are added
+/// up.
 template <class V, class Invert>
 class OneByOne {
 public:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Times taken by Google Benchmark, in turn, so that a busy machine slows all of them alike; or instructions
-///        counted by Valgrind, which no neighbour changes.
+/// @file  Measures times with Google Benchmark, in turn, so that a busy machine slows down all tasks alike; or counts
+///        instructions with Valgrind, which do not depend on other processes.
 #pragma once
 
 #include <benchmark/benchmark.h>
@@ -27,17 +27,17 @@ namespace nephroid::examples::benchmarks {
 /// How long to measure. The defaults are short; a quiet machine needs no more.
 struct Effort {
     double seconds = 0.04;             ///< of each repetition, at least
-    unsigned repetitions = 5;          ///< the least time of these counts: what a neighbour takes away is never added
+    unsigned repetitions = 5;          ///< the shortest of these times counts, which other processes disturb least
     bool full = false;                 ///< the large sizes too
     bool instructions = false;         ///< counted instead of seconds
     std::uint64_t photons = 1'000'000; ///< of the long run
 };
 
-/// What is timed: `run` is called again and again, and does `items` pieces of work each time.
+/// A task to be timed: each call of `run` does `items` pieces of work.
 struct Task {
     double items;
     std::function<void()> run;
-    bool threads = false; ///< wall clock, as several threads' processor time says nothing
+    bool threads = false; ///< measured by wall clock, because processor time is the sum over threads
 };
 
 /// Keeps the least time of each task; prints nothing.
@@ -87,8 +87,8 @@ private:
 }
 #endif
 
-/// What one item of each task takes in instructions of its second run, as the first one also allocates. As if each took
-/// a nanosecond, so that they can stand where seconds do.
+/// The instructions for one item of each task in its second run; the first run also allocates. Returned in billions, so
+/// that an instruction counts as a nanosecond.
 [[nodiscard]] inline std::vector<double> instructions_per_item([[maybe_unused]] const std::vector<Task>& tasks) {
     std::vector<double> counts;
 #if defined(NEPHROID_EXAMPLES_HAS_CALLGRIND)
@@ -103,7 +103,7 @@ private:
     return counts;
 }
 
-/// Seconds of processor time (of wall clock where a task says so) for one item of each task.
+/// Seconds of processor time, or of wall clock if a task asks for it, for one item of each task.
 [[nodiscard]] inline std::vector<double> seconds_per_item(const Effort& effort, const std::vector<Task>& tasks) {
     if (effort.instructions)
         return instructions_per_item(tasks);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What is benchmarked on: eye path vertices and photons on a unit square, and nanoflann over them.
+/// @file  Points for benchmarks: eye path vertices and photons on a unit square, and nanoflann's tree over them.
 #pragma once
 
 #include "nephroid/sequence/halton.hpp"
@@ -23,7 +23,7 @@ struct Vertex {
     Vec normal{0, 0, 1};
 };
 
-/// side² vertices, one at a random place of each cell of a grid, row by row: eye paths with one sample a pixel.
+/// side² vertices, one at a random position in each cell of a grid, row by row: eye paths with one sample per pixel.
 [[nodiscard]] inline std::vector<Vertex> film_vertices(std::size_t side) {
     const RandomSequence sequence(7);
     std::vector<Vertex> vertices;
@@ -36,7 +36,7 @@ struct Vertex {
     return vertices;
 }
 
-/// Places on the unit square, in the order that photons come.
+/// Positions on the unit square, in the order of the photons.
 template <class Sequence>
 [[nodiscard]] std::vector<Vec> places(std::size_t count, const Sequence& sequence) {
     std::vector<Vec> result;

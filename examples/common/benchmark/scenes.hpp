@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What photons are benchmarked in: a wavy sheet of water as a mesh, by the examples' own tree and by Embree.
+/// @file  The scene of the benchmarks: a wavy sheet of water as a mesh, traced by the examples' own tree or by Embree.
 #pragma once
 
 #include "common/benchmark/points.hpp"
@@ -71,7 +71,7 @@ public:
         rtcReleaseDevice(device_);
     }
 
-    /// @param coherent  tells Embree that rays come in an order
+    /// @param coherent  whether to tell Embree that successive rays are close together
     [[nodiscard]] std::optional<Candidate<float>> nearest(const Ray<float>& ray, bool coherent = false) const {
         const RTCRayHit r = nearest_hit(scene_, ray.origin, ray.direction, ray.t_min, ray.t_max, coherent);
         if (r.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -90,7 +90,7 @@ public:
     using vector = Vec;
     using flux_type = float;
 
-    /// @param scene  of `water_scene`; is referred to
+    /// @param scene  made by `water_scene`; must outlive this object
     explicit EmbreeWater(const Scene<float, float>& scene)
         : scene_(&scene), mesh_(std::get<TriangleMesh<float>>(scene.parts()[1].shape)), embree_(mesh_.data()),
           floor_(0) {}

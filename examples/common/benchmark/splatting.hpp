@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Splatting against a radius search with a callback, and against a loop over as many points that lie in a row.
+/// @file  Compares splatting with a radius search that calls back, and with a loop over as many points in an array.
 #pragma once
 
 #include "common/benchmark/measure.hpp"
@@ -13,7 +13,7 @@
 
 namespace nephroid::examples::benchmarks {
 
-/// Every footprint is a disk with so many vertices in it.
+/// Policies without a pixel filter, so that every footprint is a disk with a known number of vertices.
 using DiskPolicies = decltype(Published{}.with_filter(NoPixelFilter{}));
 using DiskSplatter = nephroid::detail::Splatter<Vec, float, Irradiance, DiskPolicies>;
 
@@ -42,7 +42,7 @@ private:
     std::size_t count_ = 0;
 };
 
-/// The inner loop by itself: what a splat does to one vertex, for points that lie in a row.
+/// The inner loop by itself: adds a splat to points in an array.
 inline void splat_in_a_row(const Splat<Vec, float>& s, const float* x, const float* y, const float* z, float* sum,
                            std::size_t count) {
     const Vec c = s.centre, a = s.row_a, b = s.row_b, n = s.row_n;

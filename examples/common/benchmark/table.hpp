@@ -13,7 +13,7 @@
 
 namespace nephroid::examples::benchmarks {
 
-/// What a ratio is held against.
+/// The bound that a ratio should meet.
 struct Bar {
     enum class Kind { none, at_least, at_most } kind = Kind::none;
     double value = 0;
@@ -26,7 +26,7 @@ struct Bar {
             return "";
         return examples::text(kind == Kind::at_least ? ">= %.4g" : "<= %.4g", value);
     }
-    /// "met", "missed", or nothing where there is no bar.
+    /// "met", "missed", or an empty text if there is no bound.
     [[nodiscard]] const char* verdict(double ratio) const {
         if (kind == Kind::none)
             return "";
@@ -45,8 +45,7 @@ inline void print_heading() {
     print_cells({"---", "---:", "---", "---:", "---", "---"});
 }
 
-/// One row: what was measured, as a figure with its unit, and as a ratio to its yardstick. A ratio that is not a number
-/// is left blank.
+/// Prints one row: a measured figure with its unit, and its ratio to a yardstick. A ratio that is NaN is left blank.
 inline void print_row(const std::string& what, double figure, const char* unit, const char* yardstick, double ratio,
                       Bar bar = {}) {
     print_cells({what, text("%.4g %s", figure, unit), yardstick, std::isfinite(ratio) ? text("%.3g", ratio) : "",

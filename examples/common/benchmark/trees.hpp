@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The trees at work: their build, nearest photons and relaxation, each against nanoflann by itself.
+/// @file  Benchmarks of the trees: building, nearest photons and relaxation, each compared with nanoflann alone.
 #pragma once
 
 #include "common/benchmark/measure.hpp"
@@ -121,7 +121,7 @@ inline void benchmark_relaxation(const Effort& effort) {
             benchmark::DoNotOptimize(moved.data());
         };
     };
-    // What comes before the first iteration is in both.
+    // Both times include the preparation before the first iteration.
     const double items = double(photons);
     const auto t = seconds_per_item(effort, {{items, theirs}, {items, relaxed(4)}, {items, relaxed(12)}});
     const double iteration = (t[2] - t[1]) / 8;

@@ -31,7 +31,7 @@ struct Bounds {
     }
 };
 
-/// Of the meshes whose materials a condition holds for.
+/// The bounds of the meshes whose materials meet a condition.
 template <class Condition>
 [[nodiscard]] Bounds bounds_of(const SceneDescription& scene, const Condition& counts) {
     Bounds bounds;
@@ -65,7 +65,7 @@ template <class Condition>
     return is_over && sum != 0 && (u * a.y + v * b.y + w * c.y) / sum < from.y;
 }
 
-/// Whether something diffuse lies under most of what is specular, or most of the light of it that falls straight down.
+/// Whether diffuse surfaces lie under most of the specular ones, or under most of their light that falls straight down.
 [[nodiscard]] bool has_floor(const SceneDescription& scene, const Bounds& specular) {
     constexpr int grid = 5;
     int found = 0;
@@ -85,7 +85,7 @@ void add_sun(SceneDescription& scene, const std::array<double, 3>& direction, do
     LightDescription sun;
     sun.name = "sun";
     sun.direction = glm::vec3(glm::normalize(glm::dvec3(direction[0], direction[1], direction[2])));
-    sun.intensity = glm::vec3(std::numbers::pi_v<float>); // what is white and faces it has a radiance of 1
+    sun.intensity = glm::vec3(std::numbers::pi_v<float>); // white surfaces that face the sun have a radiance of 1
     sun.angular_diameter = static_cast<float>(degrees * std::numbers::pi / 180);
     scene.lights.push_back(sun);
 }
@@ -94,7 +94,7 @@ void add_sun(SceneDescription& scene, const std::array<double, 3>& direction, do
 float add_ground(SceneDescription& scene, const Bounds& specular, double albedo) {
     Bounds all = all_bounds(scene);
     const Bounds& on_it = specular.is_empty() ? all : specular;
-    constexpr float gap = 1e-4f, reach = 50; // of the size: what stands on it does not touch it
+    constexpr float gap = 1e-4f, reach = 50; // in units of the size; objects on the ground do not touch it
     const glm::vec3 middle = 0.5f * (on_it.low + on_it.high);
     const float half = reach * all.size(), y = on_it.low.y - gap * on_it.size();
     MaterialDescription material;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What is added to a file's scene, asked for or because nothing would be seen without: sun, ground, camera.
+/// @file  Adds a sun, a ground or a camera to a file's scene, if the user asks for it or nothing would be seen without.
 #pragma once
 
 #include "common/caustics/options.hpp"
@@ -11,21 +11,21 @@
 
 namespace nephroid::examples {
 
-/// What was added, and what of it nobody asked for.
+/// What was added to the scene.
 struct Additions {
-    std::vector<std::string> assumed;  ///< a sentence each
-    std::optional<float> ground_level; ///< y, where a ground was added
+    std::vector<std::string> assumed;  ///< a sentence for each addition that the user did not ask for
+    std::optional<float> ground_level; ///< y, if a ground was added
 };
 
-/// Adds the sun and the ground that the options ask for. Without them: a sun to a scene without lamps and environment;
-/// a ground to a scene in which nothing is diffuse, or without lamps of its own and without anything diffuse below what
-/// is specular.
+/// Adds the sun and the ground that the options ask for. Without such options it adds a sun if the scene has neither
+/// lamps nor an environment, and a ground if the scene has no diffuse surfaces, or has no lamps and no diffuse surface
+/// below the specular ones.
 ///
-/// The ground lies just below the lowest point of what is specular, as far as 50 times the scene's size.
+/// The ground lies just below the lowest point of the specular surfaces, and extends over 50 times the scene's size.
 [[nodiscard]] Additions add_sun_and_ground(SceneDescription& scene, const Options& options);
 
-/// The corners of what a camera should show: what is specular, and where light from directional lamps takes its shadow
-/// on the ground; all meshes of a scene without anything specular.
+/// The corners of the region that a camera should show: the specular surfaces, and their shadows from directional lamps
+/// on the ground. In a scene without specular surfaces, all meshes.
 [[nodiscard]] std::vector<glm::vec3> points_of_interest(const SceneDescription& scene, const Additions& additions);
 
 } // namespace nephroid::examples

@@ -21,8 +21,8 @@ using Case = BuiltinCase<float, float>;
             options.one_reflection};
 }
 
-/// How far beyond a periodic floor's border its ghosts reach: at least an eighth of the period, so that the map is the
-/// same for all but very smooth pictures.
+/// The distance beyond a periodic floor's border up to which there are ghosts: at least an eighth of the period, so
+/// that all but very smooth pictures have the same map.
 [[nodiscard]] double ghosts_of(const BuiltinFilm& film, const Options& options) {
     const double emitted = double(options.emit.value_or(options.photons));
     const double largest =
@@ -34,7 +34,7 @@ using Case = BuiltinCase<float, float>;
     return margin;
 }
 
-/// Of the exact picture, or else of the picture itself; 1 where all is dark.
+/// The exposure for the exact picture, or for the picture itself if there is no exact one; 1 if all is dark.
 [[nodiscard]] double exposure_of(const std::optional<std::vector<double>>& exact,
                                  const std::vector<float>& irradiance) {
     const auto is_lit = [](auto pixel) { return pixel > 0; };

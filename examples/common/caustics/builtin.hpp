@@ -15,7 +15,7 @@ struct Rendering {
     Report report;
 };
 
-/// Renders a built-in case. Light that met no specular surface does not count.
+/// Renders a built-in case, without direct light.
 /// Throws UsageError for options that the case does not have.
 [[nodiscard]] Rendering render_builtin(const Options& options);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The layers of a glTF scene's picture. Each is compiled by itself: together they take a compiler a minute.
+/// @file  The layers of a glTF scene's picture. Each has a source file of its own, because together they compile
+///        slowly.
 #pragma once
 
 #include "common/caustics/report.hpp"
@@ -15,16 +16,16 @@ using FileScene = Scene<float, glm::vec3>;
 using FileLamps = Lamps<float, glm::vec3>;
 using FileEyePaths = EyePaths<float, glm::vec3>;
 
-/// What the camera sees: vertices for light to fall on, and what shines by itself.
+/// Traces the camera's rays to vertices on which light falls, and to emitters.
 [[nodiscard]] FileEyePaths see_file_scene(const FileScene& scene, const FileLamps& lamps, const Camera<float>& camera,
                                           const Options& options, ThreadExecutor& threads);
 
-/// The light that comes straight from lamps, and what shines.
+/// The direct layer: light straight from lamps, and emitters.
 [[nodiscard]] std::vector<glm::vec3> direct_layer_of(const FileScene& scene, const FileLamps& lamps,
                                                      const FileEyePaths& eye, const Options& options,
                                                      ThreadExecutor& threads);
 
-/// Adds the caustics to a picture, and what is to be said of them to a report.
+/// Adds the caustics to a picture, and notes about them to a report.
 void add_caustics_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const Options& options,
                      ThreadExecutor& threads, Report& report, std::vector<glm::vec3>& pixels);
 

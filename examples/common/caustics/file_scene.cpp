@@ -36,7 +36,8 @@ void check(const GltfScene<float>& gltf, const Options& options) {
 
 [[nodiscard]] double luminance(const Color& color) { return (double(color.x) + double(color.y) + double(color.z)) / 3; }
 
-/// The exposure at which nine in ten of the pixels that are not black are below 0.7: caustics may shine, not the walls.
+/// The exposure at which nine in ten of the pixels that are not black are below 0.7: caustics may be clipped, not
+/// walls.
 [[nodiscard]] double exposure_of(const std::vector<Color>& pixels) {
     std::vector<double> brightness;
     for (const Color& pixel : pixels)
@@ -49,7 +50,7 @@ void check(const GltfScene<float>& gltf, const Options& options) {
     return 0.7 / *bright;
 }
 
-/// The file's content; what is noticed of it is noted, also where it cannot be read.
+/// Reads the file. The reader's warnings become notes, even if the file cannot be read.
 [[nodiscard]] SceneDescription described(const Options& options, Report& report) {
     try {
         SceneDescription description = read_gltf(options.scene);
@@ -63,7 +64,7 @@ void check(const GltfScene<float>& gltf, const Options& options) {
     }
 }
 
-/// The file's first camera, or one that shows what is specular and its light.
+/// The file's first camera, or a camera that shows the specular surfaces and their light.
 [[nodiscard]] CameraDescription camera_of(const SceneDescription& description, const Additions& additions,
                                           const FileScene& scene, const Options& options, Report& report) {
     if (!description.cameras.empty())

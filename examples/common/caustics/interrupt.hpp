@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-/// @file  Ctrl-C: the first ends the pass with the picture so far, the second the program.
+/// @file  Ctrl-C: the first one ends the pass with the picture so far, the second one ends the program.
 #pragma once
 
 namespace nephroid::examples {
 
-/// From here on Ctrl-C, and a polite request to end (SIGTERM), is only noted; the next one ends the program as usual.
-/// A signal that whoever started the program has it ignore stays ignored.
+/// From now on, the first Ctrl-C or SIGTERM is only noted; the next one ends the program as usual. A signal that the
+/// program was started to ignore stays ignored.
 void note_interrupts();
 
-/// Whether one came.
+/// Whether an interrupt was noted.
 [[nodiscard]] bool is_interrupted();
 
-/// What the program then returns: 128 and the signal's number, as shells have it.
+/// The program's exit status after an interrupt: 128 plus the signal's number, as in shells.
 [[nodiscard]] int interrupted_status();
 
 } // namespace nephroid::examples

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What the program `caustics` is asked to do.
+/// @file  The command line options of the program `caustics`.
 #pragma once
 
 #include "common/any_sequence.hpp"
@@ -18,8 +18,8 @@ enum class Layer { all, caustics, direct };
 
 /// A sun that is added to a file's scene.
 struct Sun {
-    std::array<double, 3> direction{}; ///< that its light goes in, any length but zero
-    double degrees = 0;                ///< its angular diameter; 0: all its light goes one way
+    std::array<double, 3> direction{}; ///< in which its light travels, any length but zero
+    double degrees = 0;                ///< its angular diameter; 0: parallel light
 };
 
 struct Options {
@@ -31,7 +31,7 @@ struct Options {
     bool first_order = false;              ///< photon differential splatting as published
     bool curved = false;                   ///< footprints in pieces that bend as the light does
     std::size_t width = 512, height = 512; ///< pixels
-    bool height_given = false;             ///< else a file's camera chooses it
+    bool height_given = false;             ///< otherwise a file's camera gives it
     unsigned samples = 1;                  ///< eye paths per pixel
     KernelKind kernel = KernelKind::biweight;
     SequenceKind sequence = SequenceKind::halton;
@@ -39,7 +39,7 @@ struct Options {
     unsigned threads = 0; ///< 0: as many as the machine has
     bool pixel_filter = true;
     bool fresnel = false;                           ///< of the built-in cases; materials of a file always have it
-    bool one_reflection = false;                    ///< of the ring: discard what would be reflected twice
+    bool one_reflection = false;                    ///< of the ring: discard light that is reflected twice
     std::optional<std::array<double, 4>> view;      ///< x_min, x_max, y_min, y_max of a built-in case's film
     Layer layer = Layer::all;                       ///< of a file's picture
     std::optional<Sun> sun;                         ///< added to a file's scene

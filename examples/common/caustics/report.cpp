@@ -18,7 +18,7 @@ namespace nephroid::examples {
 
 namespace {
 
-/// Bytes that the process has held in memory at most; 0 where the system does not tell.
+/// The process's peak memory in bytes; 0 if the system does not tell.
 [[nodiscard]] double peak_memory() {
 #if defined(_WIN32)
     return 0;

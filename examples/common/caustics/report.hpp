@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What `caustics` says at the end: the table on the terminal, and the same as JSON.
+/// @file  The report of `caustics`: a table on the terminal, and the same as JSON.
 #pragma once
 
 #include "common/caustics/options.hpp"
@@ -12,7 +12,7 @@
 
 namespace nephroid::examples {
 
-/// Seconds of wall clock, pass by pass; `other` is what happens between them.
+/// Seconds of wall clock for each pass; `other` is the time between passes.
 struct Timings {
     double eye_paths = 0, map = 0, pilot = 0, trace = 0, fit = 0, splat = 0, direct = 0, total = 0;
     [[nodiscard]] double other() const { return total - eye_paths - map - pilot - trace - fit - splat - direct; }
@@ -24,11 +24,11 @@ struct Report {
     std::size_t eye_vertices = 0;
     unsigned threads = 1;
     std::optional<double> smoothing; ///< s of all photons; nothing: chosen for each
-    std::optional<Errors> errors;    ///< where the truth is known
-    std::vector<std::string> notes;  ///< on what is shown otherwise than the scene says
-    bool interrupted = false;        ///< the picture has the photons that there were when the user wanted no more
+    std::optional<Errors> errors;    ///< if the exact picture is known
+    std::vector<std::string> notes;  ///< about things that are shown differently from the scene's description
+    bool interrupted = false;        ///< the picture has only the photons before the user's interrupt
 
-    /// Keeps a note, and prints it at once: what follows may fail.
+    /// Keeps a note, and prints it at once, because the program may fail later.
     void note(const std::string& text);
 };
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// @file  The groups of hard cases, and seeded chains for each.
+/// @file  Generates seeded chains for each group of hard cases.
 #pragma once
 
 #include "common/numerics/chain.hpp"
+#include "common/numerics/fold.hpp"
+#include "common/numerics/groups.hpp"
 
 #include "nephroid/emission/aligned_basis.hpp"
 #include "nephroid/vector/glm.hpp"
@@ -13,43 +15,14 @@
 
 namespace nephroid::examples::numerics {
 
-enum class Group : unsigned char {
-    ordinary,
-    grazing_899,
-    grazing_8999,
-    below_critical,
-    beyond_critical,
-    normal_incidence,
-    near_fold,
-    far_away,
-    tiny_scene,
-    huge_scene,
-    faint_index,
-    small_radius,
-    long_transfer,
-};
-
-inline constexpr std::array<const char*, 13> group_names = {"ordinary",
-                                                            "grazing, 89.9 degrees",
-                                                            "grazing, 89.99 degrees",
-                                                            "below the critical angle",
-                                                            "beyond the critical angle",
-                                                            "normal incidence",
-                                                            "near a fold",
-                                                            "1e4 to 1e6 from the origin",
-                                                            "a scene 1e-4 in size",
-                                                            "a scene 1e4 in size",
-                                                            "index ratio 1.0001",
-                                                            "a radius of 1e-4",
-                                                            "a transfer of 1e5"};
-
 /// Makes chains of one group whose numbers all fit into T.
 template <class T>
 class Generator {
 public:
     Generator(Group group, std::uint32_t seed) : group_(group), draws_(seed) {}
 
-    /// Nothing if the random numbers made no path: the ray missed a ball, or left through the wrong side.
+    /// The next chain; nothing if the random numbers give no path, because the ray misses a ball or leaves on the wrong
+    /// side.
     [[nodiscard]] std::optional<Chain> next() {
         Chain chain;
         const int events = 1 + static_cast<int>(draws_.in(0, 6));
@@ -66,10 +39,11 @@ public:
             double distance = size_ * draws_.in(0.3, 2);
             if (is_special && group_ == Group::long_transfer) {
                 distance = 1e5;
-                size_ = 1e3; // what follows is large enough for the rounding of the flight in float
+                size_ = 1e3; // the rest of the path is large compared with the rounding of the flight in float
             }
             if (is_receiver && group_ == Group::near_fold) {
-                const auto there = distance_to_fold(chain);
+                const auto there = distance_to_fold(
+                    chain, [this] { return (draws_.in(0, 1) < 0.5 ? -1 : 1) * log_uniform(1e-7, 1e-3); });
                 if (!there)
                     return std::nullopt;
                 distance = *there;
@@ -117,7 +91,8 @@ private:
     /// A normal to which a ray has this angle of incidence.
     [[nodiscard]] Point<double> facing(const Point<double>& w, double angle) { return tilted(-w, angle); }
 
-    /// From a point, from an area, or from both: lengths of a third of the scene, a third of a radian.
+    /// Emits from a point, from an area in one direction, or both: tangents of up to a third of the scene, or of a
+    /// radian.
     void emit(Chain& chain) {
         using V = glm::vec<3, T>;
         Point<double> middle{};
@@ -175,7 +150,7 @@ private:
         const auto [u, v] = two_across(n);
         const double turn = draws_.in(0, 2 * std::numbers::pi);
         const Point<double> g = std::cos(turn) * u + std::sin(turn) * v;
-        const Point<double> outward = s.first ? n : -n; // a ball is met on the side that the ray enters, or leaves
+        const Point<double> outward = s.first ? n : -n; // the ray meets a ball from outside or from inside
         switch (s.kind) {
         case Kind::plane:
             s.point[0] = p + size_ * draws_.in(-1, 1) * g;
@@ -209,7 +184,7 @@ private:
             break;
         }
         case Kind::triangle: {
-            // The face is tilted against the interpolated normal, except where the case is about the angle at the face.
+            // The face is tilted against the interpolated normal, unless the group needs the exact angle at the face.
             const bool exact = is_special && (grazes() || is_critical());
             const Point<double> face = exact ? n : tilted(n, draws_.in(0, 0.1));
             const auto [e, f] = two_across(face);
@@ -239,7 +214,7 @@ private:
             x = rounded(x);
     }
 
-    /// Whether the path is the case that was intended.
+    /// Whether the path belongs to the group.
     [[nodiscard]] bool accept(const Surface<double>& s, const Surface<Wide>& wide, const Line<Wide>& ray,
                               const Meeting<Wide>& m, double distance, bool is_special, bool is_receiver) const {
         const Point<double> off = lift<double>(Point<Wide>(m.position - ray.x)) - distance * lift<double>(ray.w);
@@ -256,44 +231,6 @@ private:
             return false;
         const double leaves = as_double(turned(wide, ray.w, m.shade).dot(m.face));
         return passes == (leaves * with_face > 0);
-    }
-
-    /// A flight to a point where the determinant of the footprint is 1e-3 to 1e-7 of the product of its lengths.
-    [[nodiscard]] std::optional<double> distance_to_fold(const Chain& chain) {
-        Steady steady;
-        Line<Dual> ray = dual_emission(chain, steady);
-        for (std::size_t i = 0; i < chain.surfaces.size(); ++i) {
-            const Surface<Dual> s = lift<Dual>(chain.surfaces[i], steady);
-            const Meeting<Dual> m = meet(s, ray, chain.meetings[i]);
-            ray = {m.position, turned(s, ray.w, m.shade)};
-        }
-        const Tangents t = tangents_of(ray);
-        const Point<double> w = lift<double>(Point<double>{ray.w.x.value, ray.w.y.value, ray.w.z.value});
-        const auto footprint_at = [&](double flown) {
-            return std::array<Point<double>, 2>{(t.d_position[0] + flown * t.d_direction[0]).across(w),
-                                                (t.d_position[1] + flown * t.d_direction[1]).across(w)};
-        };
-        const auto det = [&](double flown) {
-            const auto [a, b] = footprint_at(flown);
-            return w.dot(a.cross(b));
-        };
-        // The determinant is a quadratic function of the distance.
-        const double c = det(0), sum = det(1), difference = det(-1);
-        const double a2 = 0.5 * (sum + difference) - c, a1 = 0.5 * (sum - difference);
-        const double under = a1 * a1 - 4 * a2 * c;
-        if (!(under > 0))
-            return std::nullopt;
-        const double q = -0.5 * (a1 + (a1 < 0 ? -1 : 1) * std::sqrt(under));
-        for (const double fold : {q / a2, c / q}) {
-            if (!(fold > 0.1 && fold < 20))
-                continue;
-            const double there = fold * (1 + (draws_.in(0, 1) < 0.5 ? -1 : 1) * log_uniform(1e-7, 1e-3));
-            const auto [a, b] = footprint_at(there);
-            const double ratio = std::abs(det(there)) / (a.length() * b.length());
-            if (ratio > 1e-7 && ratio < 1e-3)
-                return there;
-        }
-        return std::nullopt;
     }
 
     Group group_;

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+/// @file  The data of a triangle mesh, and their validation.
+#pragma once
+
+#include "common/ray.hpp"
+
+#include "nephroid/vector/error.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace nephroid::examples {
+
+template <class T>
+struct MeshData {
+    std::vector<Vec3<T>> positions;
+    std::vector<Vec3<T>> normals; ///< one for each position, of any length; zero, or no normals at all: flat
+    std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from where the normal points
+    std::vector<std::uint32_t> materials;                ///< one for each triangle; empty: all are material 0
+
+    [[nodiscard]] std::array<Vec3<T>, 3> corners(std::size_t triangle) const {
+        const auto& t = triangles[triangle];
+        return {positions[t[0]], positions[t[1]], positions[t[2]]};
+    }
+};
+
+/// Throws std::invalid_argument for an index out of range, a vertex that is not finite, and counts that differ.
+template <class T>
+void validate(const MeshData<T>& data) {
+    const auto complain = [](const std::string& what) { invalid_argument("TriangleMesh: " + what); };
+    for (std::size_t i = 0; i < data.positions.size(); ++i)
+        if (!all_finite(T(16) * data.positions[i]))
+            complain("vertex " + std::to_string(i) + " is not finite");
+    for (const auto& triangle : data.triangles)
+        for (const std::uint32_t index : triangle)
+            if (index >= data.positions.size())
+                complain("a triangle's index " + std::to_string(index) + " is out of range");
+    if (!data.normals.empty() && data.normals.size() != data.positions.size())
+        complain("there must be as many normals as positions, or none");
+    for (std::size_t i = 0; i < data.normals.size(); ++i)
+        if (!all_finite(data.normals[i]))
+            complain("normal " + std::to_string(i) + " is not finite");
+    if (!data.materials.empty() && data.materials.size() != data.triangles.size())
+        complain("there must be as many materials as triangles, or none");
+}
+
+} // namespace nephroid::examples
