@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Light that comes straight from the lamps.
+/// @file  Direct light: from the lamps straight to diffuse surfaces.
 #pragma once
 
 #include "common/eye_paths.hpp"
@@ -61,19 +61,19 @@ private:
 
 } // namespace detail
 
-/// The irradiance at points of diffuse surfaces straight from the lamps. Specular surfaces block it as others do: what
-/// comes through them is the caustic's part.
+/// The direct irradiance at points of diffuse surfaces. Specular surfaces block it like all others, because the light
+/// through them belongs to the caustics.
 template <class T, Flux F>
 class DirectLight {
 public:
-    /// Refers to all three; they have to outlive it.
+    /// The scene, the lamps and the options are kept by reference, and must outlive this object.
     DirectLight(const Scene<T, F>& scene, const Lamps<T, F>& lamps, const DirectLightOptions& options)
         : scene_(scene), lamps_(lamps), options_(options) {
         for (const AreaLamp<T, F>& area : lamps.areas)
             areas_.emplace_back(area);
     }
 
-    /// @param index  of the vertex: what its samples are drawn by
+    /// @param index  of the vertex; its random numbers depend on this
     [[nodiscard]] F irradiance(const EyeVertex<T, F>& vertex, std::uint64_t index) const {
         F sum = flux_traits<F>::zero();
         for (const Lamp<T, F>& lamp : lamps_.lamps)
@@ -128,8 +128,9 @@ private:
         return lamp.radiance() * (sum * lamp.area() / T(options_.shadow_rays));
     }
 
-    /// Half of the rays by where light comes from, half by the cosine, each weighed by both densities (the balance
-    /// heuristic of Veach and Guibas 1995). A sun needs the first alone, the same light from everywhere the second.
+    /// Draws half of the rays in proportion to the environment's light, half in proportion to the cosine, and weights
+    /// them with both densities (the balance heuristic of Veach and Guibas 1995). A sun needs only the former, a
+    /// constant environment only the latter.
     [[nodiscard]] F from_environment(const EyeVertex<T, F>& vertex, const Environment<T, F>& environment,
                                      std::uint64_t seed) const {
         constexpr double golden_ratio = 0.6180339887498949;
@@ -170,7 +171,7 @@ private:
     std::vector<detail::SampledAreaLamp<T, F>> areas_;
 };
 
-/// The direct layer of a picture: what the pixels see of emitters, and what their vertices reflect straight from lamps.
+/// The direct layer of a picture: emitters as the pixels see them, and direct light that the vertices reflect.
 ///
 /// @return  linear radiance by pixel, as long as `eye.emitted`
 /// @param executor  the result does not depend on it

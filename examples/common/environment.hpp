@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Light from all around, from infinitely far: the same everywhere, by a picture, or a sun with a size.
+/// @file  An environment, which is light from infinitely far: constant, from a picture, or from a sun with a size.
 #pragma once
 
 #include "common/image/image.hpp"
@@ -14,14 +14,14 @@
 
 namespace nephroid::examples {
 
-/// Radiance by direction, and directions drawn by about how much comes from them.
+/// Radiance by direction, and directions drawn approximately in proportion to it.
 ///
-/// A picture is a map of longitude and latitude, y upwards: its middle is what lies in the direction -z, where a glTF
-/// camera looks that nobody has turned, its right half lies towards +x. Radiance between pixels is interpolated.
+/// A picture is in longitude and latitude with y upwards. Its middle is the direction -z, in which a glTF camera looks
+/// that is not rotated, and its right half is towards +x. Radiance between pixels is interpolated.
 template <class T, Flux F>
 class Environment {
 public:
-    /// A direction that light comes from.
+    /// A direction from which light comes.
     struct Direction {
         Vec3<T> towards; ///< unit, to where the light comes from
         T density;       ///< that it was drawn with, 1 / steradian, > 0
@@ -36,8 +36,8 @@ public:
         return e;
     }
 
-    /// @param direction   that the light goes in, unit
-    /// @param irradiance  of a surface across it
+    /// @param direction   in which the light travels, unit
+    /// @param irradiance  of a surface perpendicular to it
     /// @param diameter    of its disk, radians, in (0, pi)
     [[nodiscard]] static Environment sun(const Vec3<T>& direction, const F& irradiance, T diameter) {
         if (!(diameter > T(0) && diameter < pi<T>))
@@ -61,7 +61,7 @@ public:
         return e;
     }
 
-    /// Whether it is too small to be looked at: a sun is sampled as a lamp is.
+    /// Whether it is a sun, which is too small for random directions and is sampled like a lamp.
     [[nodiscard]] bool is_lamp() const { return height_ < 2; }
     [[nodiscard]] bool is_constant() const { return columns_ == 0 && !is_lamp(); }
 
@@ -88,11 +88,11 @@ public:
             T(1 / (2 * pi<double> * height_)), radiance_};
     }
 
-    /// What `sample` draws a direction with, 1 / steradian.
+    /// The density with which `sample` draws a direction, 1 / steradian.
     [[nodiscard]] double density(const Vec3<T>& towards) const {
         if (columns_ == 0)
             return 1 / (2 * pi<double> * height_);
-        const Place at = place_of(towards);
+        const PicturePoint at = picture_point(towards);
         const std::size_t x = index(at.x, columns_), y = index(at.y, rows_);
         return weights_[y * columns_ + x] / sum_ / solid_angle(y);
     }
@@ -101,8 +101,8 @@ public:
     [[nodiscard]] double total() const { return total_; }
 
 private:
-    /// On the picture, in pixels from its lower left corner.
-    struct Place {
+    /// A point of the picture, in pixels from its lower left corner.
+    struct PicturePoint {
         double x, y;
     };
 
@@ -115,7 +115,7 @@ private:
         return (std::min)(static_cast<std::size_t>((std::max)(0.0, place)), count - 1);
     }
 
-    /// Of a row's latitudes, the sine at the row's lower edge.
+    /// The sine of the latitude at a row's lower edge.
     [[nodiscard]] double lower_edge(std::size_t row) const {
         return -std::cos(pi<double> * double(row) / double(rows_));
     }
@@ -123,14 +123,14 @@ private:
         return 2 * pi<double> / double(columns_) * (lower_edge(row + 1) - lower_edge(row));
     }
 
-    [[nodiscard]] Place place_of(const Vec3<T>& towards) const {
+    [[nodiscard]] PicturePoint picture_point(const Vec3<T>& towards) const {
         const double longitude = std::atan2(double(towards.x), -double(towards.z));
         const double latitude = std::asin((std::clamp)(double(towards.y), -1.0, 1.0));
         return {(0.5 + longitude / (2 * pi<double>)) * double(columns_), (0.5 + latitude / pi<double>)*double(rows_)};
     }
 
     [[nodiscard]] F interpolated(const Vec3<T>& towards) const {
-        const Place at = place_of(towards);
+        const PicturePoint at = picture_point(towards);
         const double x = at.x - 0.5, y = (std::clamp)(at.y - 0.5, 0.0, double(rows_ - 1));
         const double left = std::floor(x), down = std::floor(y);
         const auto pixel = [&](double column, double row) {
@@ -178,7 +178,8 @@ private:
         }
     }
 
-    /// Pixels are drawn by the mean of those around, which interpolation may bring light from.
+    /// Tabulates the density: pixels are drawn by the mean of the pixels around, because light is interpolated from
+    /// these.
     void tabulate() {
         weights_.resize(columns_ * rows_);
         for (std::size_t y = 0; y < rows_; ++y)
@@ -198,7 +199,7 @@ private:
         }
     }
 
-    F radiance_ = flux_traits<F>::zero(); ///< of what is no picture
+    F radiance_ = flux_traits<F>::zero(); ///< of a constant environment or a sun
     Vec3<T> towards_{0, 1, 0};            ///< a sun's middle
     double height_ = 2;                   ///< of a sun's cone, 1 - cos of half its diameter; 2 is every direction
     double total_ = 0;

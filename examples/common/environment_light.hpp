@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  An environment as a lamp for photons, aimed at what is specular.
+/// @file  An environment as a light that emits photons, aimed at the specular surfaces.
 #pragma once
 
 #include "common/environment.hpp"
@@ -13,9 +13,9 @@
 
 namespace nephroid::examples {
 
-/// For each direction, drawn by how much light comes from it, a disk across that covers the target, so far out that it
-/// lies in front of the whole scene: what stands between casts its shadow. Draws 4 samples: two for the place on the
-/// disk, two for the direction.
+/// Draws a direction in proportion to its light, and a point on a perpendicular disk that covers the target and lies in
+/// front of the whole scene, so that objects in between cast shadows. Draws 4 samples: two for the point on the disk,
+/// two for the direction.
 template <class T, Flux F>
 class EnvironmentLight {
 public:
@@ -23,7 +23,7 @@ public:
     using flux_type = F;
     static constexpr EmissionDomain domain{.coordinates = 4, .kinks = {Kinks::diagonals, Kinks::unknown}};
 
-    /// @param scene  a sphere about all that may cast a shadow
+    /// @param scene  a sphere around everything that may cast a shadow
     EnvironmentLight(std::shared_ptr<const Environment<T, F>> environment, const BoundingSphere<Vec3<T>>& target,
                      const BoundingSphere<Vec3<T>>& scene)
         : environment_(std::move(environment)), target_(target),
@@ -39,7 +39,7 @@ public:
         const DiskPoint<T> disk = concentric_disk(u1, u2);
         const T area = pi<T> * square(target_.radius), stands_for = T(1) / from.density;
         const Vec3<T> place = target_.radius * (disk.x * basis.u + disk.y * basis.v);
-        // The disk turns about the target as the direction turns: what is added here is gone when the photon is there.
+        // The disk turns around the target with the direction, so the position's change here vanishes at the target.
         const T d_position = spread.length(area), d_direction = spread.length(stands_for);
         const auto tangent = [&](const Vec3<T>& across) {
             return Tangent<Vec3<T>>{(d_position - back_ * d_direction) * across, d_direction * across};
@@ -50,7 +50,7 @@ public:
                 {tangent(basis.theta), tangent(basis.phi)}};
     }
 
-    /// Exact but for what is interpolated between a picture's pixels.
+    /// Exact except for the interpolation between a picture's pixels.
     [[nodiscard]] double power() const { return environment_->total() * double(pi<T> * square(target_.radius)); }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How wrong a picture of irradiance is, by the measures of the papers and of nephroid's tables.
+/// @file  Errors of a picture of irradiance, by the measures of the papers and of nephroid's tables.
 #pragma once
 
 #include "common/image/image.hpp"
@@ -10,7 +10,7 @@
 
 namespace nephroid::examples {
 
-/// Against a reference picture.
+/// Errors against a reference picture.
 struct Errors {
     double relative = 0; ///< rms(E - E_ref) / mean(E_ref)
     double rmse = 0;     ///< of the exposed and clipped pictures
@@ -20,12 +20,12 @@ struct Errors {
 
 /// @param irradiance  width * height pixels, row 0 at the bottom
 /// @param reference   as many
-/// @return  nothing where no light falls on the reference
+/// @return  nothing if the reference is black
 [[nodiscard]] std::optional<Errors> errors_against(const std::vector<double>& reference,
                                                    const std::vector<float>& irradiance, std::size_t width,
                                                    std::size_t height);
 
-/// Of colours the mean of the channels is compared.
+/// The same for images; of colours, the mean of the channels is compared.
 ///
 /// Throws std::runtime_error that says which sizes do not match, or that a sample is not finite.
 [[nodiscard]] std::optional<Errors> errors_against(const Samples& reference, const Samples& picture);

@@ -145,7 +145,7 @@ std::vector<unsigned char> file_content(const std::filesystem::path& path) {
     return content;
 }
 
-/// Runs a part of the reader, and puts the file's name before what it complains of.
+/// Runs a part of the reader, and adds the file's name to its error messages.
 template <class Part>
 auto naming(const std::filesystem::path& path, const Part& part) {
     Warnings warnings;

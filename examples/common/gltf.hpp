@@ -18,7 +18,7 @@
 
 namespace nephroid::examples {
 
-/// One primitive of one node that shows a mesh; a mesh that several nodes show comes once for each.
+/// One primitive of the mesh of one node. If several nodes have the same mesh, each has its own description.
 struct MeshDescription {
     std::string name; ///< of the node, or else of the mesh, or "mesh 3"
     std::vector<glm::vec3> positions;
@@ -31,25 +31,26 @@ struct MeshDescription {
 struct MaterialDescription {
     std::string name;
     glm::vec3 base_color{1}; ///< in [0, 1]
-    float coverage = 1;      ///< in [0, 1]: the opacity of alphaMode BLEND; of MASK 0 or 1. The rest passes unbent
-    float metallic = 1;      ///< in [0, 1]
-    float roughness = 1;     ///< in [0, 1]
-    float transmission = 0;  ///< in [0, 1]
-    float ior = 1.5f;        ///< >= 1, or 0: the specular-glossiness mode of KHR_materials_ior, Fresnel reflectance 1
-    bool has_volume = false; ///< KHR_materials_volume with a thickness: the mesh bounds a medium, else a thin wall
-    glm::vec3 attenuation_color{1}; ///< in [0, 1]: what is left after `attenuation_distance`
+    float coverage = 1; ///< in [0, 1]: the opacity of alphaMode BLEND; of MASK 0 or 1. The rest passes straight through
+    float metallic = 1; ///< in [0, 1]
+    float roughness = 1;    ///< in [0, 1]
+    float transmission = 0; ///< in [0, 1]
+    float ior = 1.5f;       ///< >= 1, or 0: the specular-glossiness mode of KHR_materials_ior, Fresnel reflectance 1
+    bool has_volume =
+        false; ///< KHR_materials_volume with a thickness: the mesh bounds a medium, otherwise it is a thin wall
+    glm::vec3 attenuation_color{1}; ///< in [0, 1]: the share left after `attenuation_distance`
     float attenuation_distance = std::numeric_limits<float>::infinity(); ///< > 0, world units
     glm::vec3 emission{0}; ///< radiance: emissiveFactor times emissiveStrength
     bool double_sided = false;
 
     [[nodiscard]] bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
-    /// Whether it sends light on that may make a caustic: a smooth metal, what transmits, what is there in part.
+    /// Whether it may make a caustic: smooth metal, and surfaces that transmit light or do not cover all of their area.
     [[nodiscard]] bool is_specular() const {
         const bool is_smooth = roughness < roughest_mirror;
         const bool reflects = is_smooth && (metallic >= 0.5f || !(ior > 0));
         return !emits() && (reflects || (transmission > 0 && ior > 0) || coverage < 1);
     }
-    /// A metal of this roughness and more is shown diffuse.
+    /// Metals of this roughness or more are rendered as diffuse.
     static constexpr float roughest_mirror = 0.4f;
 };
 
@@ -60,12 +61,12 @@ struct LightDescription {
     std::string name;
     Kind kind = Kind::directional;
     glm::vec3 position{0};         ///< without meaning for a directional light
-    glm::vec3 direction{0, 0, -1}; ///< that the light travels in, unit length; without meaning for a point light
+    glm::vec3 direction{0, 0, -1}; ///< in which the light travels, unit length; without meaning for a point light
     glm::vec3 intensity{1};        ///< color times intensity: W/m^2 across the beam if directional, else W/sr
     float cos_inner = 1;           ///< of a spot: full intensity within this angle from `direction`; > cos_outer
     float cos_outer = 0.70710678f; ///< of a spot: nothing beyond this angle
-    float range = std::numeric_limits<float>::infinity(); ///< the file's hint how far it reaches; > 0, world units
-    float angular_diameter = 0; ///< of a directional light, radians: the sun is a disk. No file says so
+    float range = std::numeric_limits<float>::infinity(); ///< the file's hint at its reach; > 0, world units
+    float angular_diameter = 0; ///< of a directional light, radians, for a sun; no file has it
 };
 
 struct CameraDescription {
@@ -88,11 +89,11 @@ struct SceneDescription {
     std::vector<MaterialDescription> materials; ///< those of the file; glTF's default at the end where a mesh needs it
     std::vector<LightDescription> lights;
     std::vector<CameraDescription> cameras;
-    std::vector<std::string> warnings; ///< what was left out or repaired, a line each
-    glm::dvec3 origin{0};              ///< where the file has what is 0 here: not 0 where the scene lies far off
+    std::vector<std::string> warnings; ///< one line for each thing that was left out or repaired
+    glm::dvec3 origin{0}; ///< the file's point that is 0 here: not 0 if the scene is far from the file's origin
 };
 
-/// A file that cannot be read, and what had been noticed of it before.
+/// A file that cannot be read, with the warnings before the error.
 struct UnreadableGltf : std::runtime_error {
     std::vector<std::string> warnings;
 
@@ -105,8 +106,8 @@ struct UnreadableGltf : std::runtime_error {
 /// Read: triangles, strips and fans, accessors of every component type, sparse and interleaved ones, buffers inside the
 /// file, beside it and as data URIs, nested transforms (a mirroring one keeps the front in front), and the extensions
 /// KHR_lights_punctual, KHR_mesh_quantization, KHR_materials_transmission, _ior, _volume and _emissive_strength, and
-/// EXT_mesh_gpu_instancing. A scene that lies far from the origin, measured by what in it is specular, is moved there
-/// in double precision: float keeps seven digits of a position, and a caustic needs them.
+/// EXT_mesh_gpu_instancing. A scene whose specular surfaces are far from the origin is moved to the origin in double
+/// precision, because a caustic needs all seven digits of a float.
 /// Left out with a warning: points and lines, textures (images are not opened), animation, skins and morph targets.
 /// Triangles without area are dropped; normals of length zero are replaced by those of the triangles around.
 ///
@@ -116,9 +117,9 @@ struct UnreadableGltf : std::runtime_error {
 /// showing meshes again and again. Not checked: that the scene has anything in it to render.
 [[nodiscard]] SceneDescription read_gltf(const std::filesystem::path& path);
 
-/// Reads a file that is in memory already.
+/// Reads a file from memory.
 ///
-/// @param path  where it came from: it is named in messages, and buffers are looked for beside it
+/// @param path  of the file, for messages; buffers are looked for in the same folder
 /// Throws what `read_gltf` does.
 [[nodiscard]] SceneDescription parse_gltf(std::span<const unsigned char> file, const std::filesystem::path& path);
 

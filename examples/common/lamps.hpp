@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The lamps of a scene: as they light what is seen directly, and as they emit photons at what is specular.
+/// @file  The lamps of a scene, for direct light and as emitters of photons towards specular surfaces.
 #pragma once
 
 #include "common/environment_light.hpp"
@@ -16,18 +16,18 @@
 
 namespace nephroid::examples {
 
-/// A lamp without extent.
+/// A lamp without area.
 template <class T, Flux F>
 struct Lamp {
     enum class Kind : unsigned char { point, spot, directional };
 
     Kind kind = Kind::point;
-    Vec3<T> position{0};            ///< not of a directional lamp
-    Vec3<T> direction{0, 0, -1};    ///< of the light, unit; not of a point lamp
+    Vec3<T> position{0};            ///< unused for a directional lamp
+    Vec3<T> direction{0, 0, -1};    ///< of the light, unit; unused for a point lamp
     F intensity = grey<F>(1);       ///< W/sr; of a directional lamp the irradiance across the beam
-    T cos_inner = 1, cos_outer = 0; ///< of a spot: full within the one, nothing beyond the other
+    T cos_inner = 1, cos_outer = 0; ///< of a spot: full intensity within the inner angle, zero beyond the outer one
 
-    /// Of the intensity, along a unit direction away from a spot.
+    /// The intensity in a unit direction away from a spot, over that on its axis.
     /// Source: glTF extension KHR_lights_punctual.
     [[nodiscard]] T falloff(const Vec3<T>& away) const {
         const T share = (dot(away, direction) - cos_outer) / (cos_inner - cos_outer);
@@ -35,12 +35,12 @@ struct Lamp {
     }
 };
 
-/// A surface that shines.
+/// A surface that emits light.
 template <class T, Flux F>
 struct AreaLamp {
     using Triangle = std::array<Vec3<T>, 3>;
 
-    std::vector<Triangle> triangles; ///< counter-clockwise seen from the side that shines
+    std::vector<Triangle> triangles; ///< counter-clockwise seen from the side that emits
     F radiance;
 };
 
@@ -52,7 +52,7 @@ struct Lamps {
 
     [[nodiscard]] bool empty() const { return lamps.empty() && areas.empty() && environments.empty(); }
 
-    /// What a ray sees that meets nothing.
+    /// The radiance of a ray that leaves the scene.
     [[nodiscard]] F background(const Vec3<T>& direction) const {
         F sum = flux_traits<F>::zero();
         for (const auto& environment : environments)
@@ -62,15 +62,15 @@ struct Lamps {
     }
 };
 
-/// A scene's lamps as a light that photons come from.
+/// A scene's lamps as a light that emits photons.
 template <class T, Flux F>
 using SceneLights = LightSet<PointLight<Vec3<T>, F>, SpotLight<Vec3<T>, F>, DirectionalLight<Vec3<T>, F>,
                              MeshLight<Vec3<T>, F>, EnvironmentLight<T, F>>;
 
 /// The area lamps of a scene: the triangles of its meshes that emit, one lamp for each material of each mesh.
 ///
-/// They lie in front of the triangles by more than rounding, so that neither do photons that start there hit the
-/// surface they start from, nor do shadow rays that end there. Where both sides shine both are there.
+/// They are moved in front of the triangles by more than rounding, so that neither photons that start there nor shadow
+/// rays that end there hit the triangles. A triangle that emits on both sides is included twice.
 template <class T, Flux F>
 [[nodiscard]] std::vector<AreaLamp<T, F>> area_lamps(const Scene<T, F>& scene) {
     std::vector<AreaLamp<T, F>> lamps;
@@ -103,7 +103,7 @@ template <class T, Flux F>
     return lamps;
 }
 
-/// Lets the photons of lamps that lie under water, or in glass, begin there.
+/// Lets the photons of lamps under water or in glass start in these media.
 template <class T, Flux F>
 void begin_in_media(Scene<T, F>& scene, const Lamps<T, F>& lamps) {
     for (const Lamp<T, F>& lamp : lamps.lamps)
@@ -120,8 +120,8 @@ void begin_in_media(Scene<T, F>& scene, const Lamps<T, F>& lamps) {
 }
 
 namespace detail {
-/// A beam's patch, moved back against the beam until it is in front of a whole box: what stands between the lamp and
-/// the specular surfaces casts its shadow on them.
+/// A beam's patch, moved against the beam until it is in front of a whole box, so that objects between the lamp and the
+/// specular surfaces cast shadows.
 template <class T>
 [[nodiscard]] BeamPatch<Vec3<T>> in_front_of(BeamPatch<Vec3<T>> patch, const Vec3<T>& direction, const Box<T>& box) {
     T nearest = std::numeric_limits<T>::infinity();
@@ -136,11 +136,11 @@ template <class T>
     if (auto* disk = std::get_if<BeamDisk<Vec3<T>>>(&patch))
         move(disk->centre);
     if (auto* parallelogram = std::get_if<Parallelogram<Vec3<T>>>(&patch))
-        move(parallelogram->corner); // across the beam: any corner will do
+        move(parallelogram->corner); // perpendicular to the beam, so any corner will do
     return patch;
 }
 
-/// The triangles that see a part of the target: the other ones' photons would carry no flux.
+/// The triangles that see a part of the target. Photons of the others would carry no flux.
 template <class T>
 [[nodiscard]] std::vector<std::array<Vec3<T>, 3>> facing(std::vector<std::array<Vec3<T>, 3>> triangles,
                                                          const BoundingSphere<Vec3<T>>& target) {
@@ -153,7 +153,7 @@ template <class T>
 } // namespace detail
 
 /// The lamps as lights that send photons to the scene's specular surfaces.
-/// Throws std::invalid_argument without lamps, and without (bounded) specular surfaces.
+/// Throws std::invalid_argument if there are no lamps or no (bounded) specular surfaces.
 template <class T, Flux F>
 [[nodiscard]] SceneLights<T, F> photon_lights(const Lamps<T, F>& lamps, const Scene<T, F>& scene) {
     using V = Vec3<T>;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What surfaces are made of.
+/// @file  Materials of surfaces.
 #pragma once
 
 #include "common/ray.hpp"
@@ -36,16 +36,16 @@ template <Flux F>
 enum class Surface : unsigned char {
     diffuse,    ///< `color` is the albedo
     mirror,     ///< `color` is the reflectance, the same at each angle
-    dielectric, ///< glass, water; `color` multiplies what passes, `ior`, `fresnel`, `follow` and `absorption` count
-    window,     ///< a pane too thin to displace light, both its faces: `color` multiplies what passes, `ior` counts
+    dielectric, ///< glass, water; `color` multiplies refracted light; uses `ior`, `fresnel`, `follow` and `absorption`
+    window,     ///< both faces of a pane too thin to displace light; `color` multiplies transmitted light; uses `ior`
     conductor,  ///< metal of complex index `eta` + i `k`, times `color`
-    black,      ///< takes all light; what emits is black to the light of others
+    black,      ///< absorbs all light; emitters do so too
 };
 
 /// Which of a dielectric's two rays photons take.
 enum class Follow : unsigned char {
-    both,       ///< one of them, by Fresnel's reflectance; without Fresnel what can pass does
-    refraction, ///< the refracted one alone: what is reflected ends there
+    both,       ///< one of them, by Fresnel's reflectance; without Fresnel terms, the refracted one if there is one
+    refraction, ///< the refracted one alone; reflected light is absorbed
 };
 
 template <Flux F>
@@ -56,27 +56,28 @@ struct Material {
     bool emits_on_both_sides = false;
 
     double ior = 1.5;    ///< of the inside, which the normal points away from
-    bool fresnel = true; ///< whether the interface reflects; without it light is refracted whole
+    bool fresnel = true; ///< whether the interface reflects; otherwise all light is refracted
     Follow follow = Follow::both;
     F absorption = flux_traits<F>::zero(); ///< of the inside, 1 / length: Beer's law
-    std::int32_t priority = 0;             ///< where insides overlap, the higher one is there
+    std::int32_t priority = 0; ///< where insides overlap, the material with the highest priority fills the space
 
     F eta = grey<F>(1), k = flux_traits<F>::zero();
 
-    /// Of a dielectric or window: the share of what enters that passes, 0 to 1; the rest falls on a diffuse layer of
-    /// albedo `color` in it.
+    /// Of a dielectric or window: the share of the entering light that is transmitted, 0 to 1. The rest falls on a
+    /// diffuse layer with albedo `color`.
     double transmission = 1;
-    double coverage = 1; ///< 0 to 1: the share of the surface that is there; through the rest light passes unbent
+    double coverage =
+        1; ///< 0 to 1: the share of the area that the surface covers; light passes straight through the rest
 
     [[nodiscard]] bool passes_light() const { return surface == Surface::dielectric || surface == Surface::window; }
     [[nodiscard]] bool is_specular() const {
         return passes_light() || surface == Surface::mirror || surface == Surface::conductor || coverage < 1;
     }
-    /// Whether light may find it diffuse.
+    /// Whether a part of it is diffuse.
     [[nodiscard]] bool is_diffuse() const {
         return (surface == Surface::diffuse || (passes_light() && transmission < 1)) && coverage > 0;
     }
-    /// Whether one ray may meet more than one kind of surface in it.
+    /// Whether it has parts that scatter light in different ways.
     [[nodiscard]] bool is_mixture() const { return coverage < 1 || (passes_light() && transmission < 1); }
     [[nodiscard]] bool emits() const { return flux_traits<F>::power(emission) > 0; }
 
@@ -123,8 +124,8 @@ private:
     }
 };
 
-/// Beer's coefficient of a medium that leaves `color` (0 to 1 in each band) of the light after `distance` (> 0).
-/// What is black there absorbs strongly, not infinitely: a path of length 0 passes.
+/// The absorption coefficient of a medium that transmits `color` (0 to 1 in each band) of the light over `distance` (>
+/// 0). For black bands it is large but finite, so that a path of length 0 transmits all light.
 template <Flux F>
 [[nodiscard]] F absorption_from(const F& color, double distance) {
     return by_band(
@@ -136,7 +137,7 @@ template <Flux F>
         color);
 }
 
-/// What Beer's law leaves after a distance, per band.
+/// The transmittance over a distance by Beer's law, for each band.
 template <Flux F, class T>
 [[nodiscard]] F beer(const F& absorption, T distance) {
     return by_band([distance](auto a) { return decltype(a)(std::exp(-a * decltype(a)(distance))); }, absorption);

@@ -26,7 +26,7 @@ namespace {
 
 MemoryPeak::MemoryPeak() {
 #if defined(__GLIBC__)
-    malloc_trim(0); // what was freed before would be used again without becoming resident
+    malloc_trim(0); // returns freed memory, whose reuse would otherwise not show as resident
 #endif
     std::ofstream clear("/proc/self/clear_refs");
     if (clear << '5' && clear.flush()) // forgets the peak, see proc(5)

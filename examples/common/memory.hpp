@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How much memory a piece of work takes at its peak.
+/// @file  Measures the peak memory of a piece of work.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 namespace nephroid::examples {
 
-/// Watches the process from when it is made: the most memory that has been resident since, beyond what was then.
-/// One at a time. Linux only, as no other system forgets a peak.
+/// The largest resident memory of the process since construction, minus that at construction. Use one at a time. Linux
+/// only, because other systems cannot reset a peak.
 class MemoryPeak {
 public:
     MemoryPeak();
-    /// Bytes; nothing where the system does not tell.
+    /// Bytes; nothing if the system does not tell.
     [[nodiscard]] std::optional<double> bytes() const;
 
 private:

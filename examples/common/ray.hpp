@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Rays, boxes, and what is known of a hit before it is filled in: the words that shapes and the BVH share.
+/// @file  Rays, boxes and candidate hits: the types that shapes and the BVH share.
 #pragma once
 
 #include "nephroid/differential/curvature.hpp"
@@ -48,7 +48,7 @@ struct Ray {
     T t_max = std::numeric_limits<T>::infinity();
 };
 
-/// An axis-aligned box; as made it is empty.
+/// An axis-aligned box; empty by default.
 template <class T>
 struct Box {
     Vec3<T> min{std::numeric_limits<T>::infinity()};
@@ -67,7 +67,7 @@ struct Box {
         }
     }
 
-    /// An empty one adds nothing.
+    /// Adds a box; an empty one adds nothing.
     void add(const Box& box) {
         for (int axis = 0; axis < 3; ++axis) {
             min[axis] = box.min[axis] < min[axis] ? box.min[axis] : min[axis];
@@ -99,17 +99,17 @@ template <class T>
 struct Candidate {
     wide_t<T> distance;
     wide_t<T> u = 0, v = 0;      ///< barycentric coordinates, for triangles
-    std::uint32_t primitive = 0; ///< which one of the shape's
+    std::uint32_t primitive = 0; ///< index within the shape
 };
 
-/// Nothing is left out, and of surfaces that touch any may be met first: for rays that end where they hit.
+/// Leaves out nothing; among surfaces that touch, any may come first. For rays that end where they hit.
 struct AnyOrder {
     static constexpr bool matters = false;
 };
 
-/// What a search for the nearest hit leaves out, and which of two that are equally far comes first.
+/// Says which hits a search leaves out, and which of two hits at the same distance comes first.
 ///
-/// @tparam Rank  rank(material, leaves): the less, the earlier; `leaves` says whether the ray comes from the inside
+/// @tparam Rank  rank(material, leaves): smaller ranks come first; `leaves` is whether the ray comes from inside
 template <class T, class Rank>
 struct ContactOrder {
     static constexpr bool matters = true;
@@ -120,7 +120,7 @@ struct ContactOrder {
 
     [[nodiscard]] bool was_left(std::uint32_t primitive) const { return contacts.was_left(part << 32 | primitive); }
 
-    /// @param cosine  cosine() between the ray and the hit's normal, asked for where it matters
+    /// @param cosine  cosine() between the ray and the hit's normal, called only if it is needed
     template <class Cosine>
     [[nodiscard]] bool leaves_out(std::uint32_t primitive, const wide_t<T>& distance, const Cosine& cosine) const {
         const std::uint64_t number = part << 32 | primitive;
@@ -128,7 +128,7 @@ struct ContactOrder {
     }
 };
 
-/// How far from one another hits may be that count as equally far, for a ray at right angles.
+/// The largest distance between hits that count as touching, along a ray perpendicular to them.
 template <class T>
 [[nodiscard]] wide_t<T> contact_height(const Ray<T>& ray, const wide_t<T>& distance) {
     using wide = wide_t<T>;
@@ -142,9 +142,9 @@ using SurfaceCurvature = AnyCurvature<Flat, ShapeOperator<Vec3<T>>, Interpolated
 template <class T>
 using Hit = SurfaceHit<Vec3<T>, SurfaceCurvature<T>>;
 
-/// A bound on how far a point is from the surface that it was put onto in `wide` arithmetic and then rounded to T.
+/// A bound on the distance between a surface and a point that was computed on it in `wide` and rounded to T.
 ///
-/// @param scale  the largest coordinates that took part, relevant where T is as wide as the arithmetic
+/// @param scale  the largest coordinates involved, which matter if T is as wide as the arithmetic
 template <class T>
 [[nodiscard]] T position_error(const Vec3<T>& position, const std::type_identity_t<wide_t<T>>& scale) {
     const T rounding = T(4) * std::numeric_limits<T>::epsilon() * (abs(position.x) + abs(position.y) + abs(position.z));
@@ -158,7 +158,7 @@ template <class T>
     return abs(wide(v.x)) + abs(wide(v.y)) + abs(wide(v.z));
 }
 
-/// What an analytic shape makes of a point on it.
+/// Makes the hit at a point of an analytic shape.
 ///
 /// @param scale  of the shape, see `position_error`
 template <class T, Curvature<Vec3<T>> C>

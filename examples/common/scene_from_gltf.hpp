@@ -24,7 +24,7 @@ template <class T, Flux F = Vec3<T>>
 struct GltfScene {
     Scene<T, F> scene;
     Lamps<T, F> lamps;
-    std::vector<std::string> warnings; ///< what is shown otherwise than the file says, a line each
+    std::vector<std::string> warnings; ///< one line for each thing that is shown differently from the file
 };
 
 namespace detail {
@@ -37,9 +37,9 @@ template <Flux F>
         return F(rgb);
 }
 
-/// Surfaces here are smooth or diffuse: what is more of the one is taken for it whole, and a note says so.
+/// Surfaces are either smooth or diffuse here. A rough surface becomes whichever it is closer to, and a note says so.
 ///
-/// @param is_window  where it transmits and has no volume: a thin pane, as glTF has it, or else the surface of a solid
+/// @param is_window  whether a transmitting material without a volume is a thin pane, as in glTF, or a solid's surface
 template <Flux F>
 [[nodiscard]] Material<F> material_from(const MaterialDescription& m, bool is_window,
                                         std::vector<std::string>& warnings) {
@@ -85,8 +85,8 @@ template <Flux F>
     return material;
 }
 
-/// The materials of the meshes: those of the file, and for a material that transmits without a volume, besides the
-/// surface of a solid that it is on closed meshes, the thin window that it is on others.
+/// The materials of the meshes. A transmitting material without a volume becomes two: the surface of a solid for closed
+/// meshes, and a thin window for others.
 template <Flux F>
 class MeshMaterials {
 public:
@@ -133,7 +133,7 @@ private:
 
     const std::vector<MaterialDescription>& described_;
     std::vector<std::string>& warnings_;
-    std::vector<std::uint32_t> windows_; ///< by material of the file
+    std::vector<std::uint32_t> windows_; ///< index of the window, by material of the file
     std::vector<Material<F>> materials_;
 };
 
@@ -165,7 +165,7 @@ template <class T, Flux F = Vec3<T>>
     for (const MeshDescription& mesh : description.meshes) {
         const auto first = static_cast<std::uint32_t>(all.positions.size());
         if (description.materials[mesh.material].coverage == 0)
-            continue; // cut away whole
+            continue; // fully transparent
         const std::uint32_t material = materials.of(mesh);
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             all.positions.emplace_back(mesh.positions[i]);
@@ -200,14 +200,14 @@ template <class T>
                                                           : Camera<T>::orthographic(pose, T(c.ymag), width, height);
 }
 
-/// Width over height as a file's camera wants it; 1 where it does not say.
+/// The width over the height of a file's camera; 1 if it has none.
 [[nodiscard]] inline double aspect_of(const CameraDescription& c) {
     if (c.kind == CameraDescription::Kind::orthographic)
         return double(c.xmag) / double(c.ymag);
     return double(c.aspect.value_or(1.0f));
 }
 
-/// For files without a camera: one that has a whole box in view, from the front and above, y upwards as in glTF.
+/// A camera for files without one: it shows a whole box from the front and above, with y upwards as in glTF.
 ///
 /// @param aspect  of the film, width over height
 template <class T>
@@ -223,9 +223,9 @@ template <class T>
     return c;
 }
 
-/// Brings a camera in front of what stands between it and what it is to show, with as wide a view as shows the same.
+/// Moves a camera in front of objects between it and its subject, and widens its view to show the same.
 ///
-/// @param middle  of what it is to show; nothing is seen through what is specular
+/// @param middle  of the subject; specular surfaces block the view
 template <class T, Flux F>
 void step_inside(CameraDescription& camera, const Scene<T, F>& scene, const glm::vec3& middle) {
     const Vec3<T> back(-camera.forward);

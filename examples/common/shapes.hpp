@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a scene can be made of.
+/// @file  The shapes of a scene.
 #pragma once
 
 #include "common/shapes/cylinder.hpp"
@@ -13,7 +13,7 @@
 namespace nephroid::examples {
 
 /// A shape has `bounds()`, `nearest(ray, t_max)`, which finds its first hit between `ray.t_min` and `t_max`, and
-/// `hit(ray, candidate)`, which says all about it.
+/// `hit(ray, candidate)`, which fills in the rest.
 template <class T>
 using Shape = std::variant<TriangleMesh<T>, Sphere<T>, Cylinder<T>, SineWave<T>, Floor<T>, Quad<T>, Disk<T>>;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Seconds of wall clock: a stopwatch, and an executor that tells the phases of a pass from each other.
+/// @file  Measures seconds of wall clock: a stopwatch, and an executor that times the phases of a pass.
 #pragma once
 
 #include "nephroid/execution/thread_executor.hpp"
@@ -9,7 +9,7 @@
 
 namespace nephroid::examples {
 
-/// Seconds since it was made or last asked.
+/// Seconds since construction or the last call of `lap`.
 class Stopwatch {
 public:
     [[nodiscard]] double lap() {
@@ -22,7 +22,7 @@ private:
     Clock::time_point start_ = Clock::now();
 };
 
-/// Takes the time of each phase that `splat_caustics` announces.
+/// Measures the time of each phase that `splat_caustics` announces.
 class TimingExecutor {
 public:
     explicit TimingExecutor(ThreadExecutor& threads) : threads_(&threads) {}

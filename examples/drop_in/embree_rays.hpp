@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Embree 3 or 4 under one face: a triangle mesh as its geometry, and the nearest hit of a ray.
+/// @file  Embree 3 or 4 behind one interface: a triangle mesh as a geometry, and the nearest hit of a ray.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)

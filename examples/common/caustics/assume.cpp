@@ -19,7 +19,7 @@ namespace {
 constexpr std::array<double, 3> assumed_sun{-0.5, -1, 0.35}; // towards the assumed camera: the light is seen
 constexpr const char* ground_name = "ground";
 
-/// An axis-aligned box; as made it is empty.
+/// An axis-aligned box; empty by default.
 struct Bounds {
     glm::vec3 low{std::numeric_limits<float>::infinity()}, high{-std::numeric_limits<float>::infinity()};
 

@@ -12,7 +12,7 @@
 namespace nephroid::examples::gltf {
 namespace {
 
-/// The vertices' numbers once those at one place have one.
+/// The vertices' indices, the same for all vertices at one position.
 std::vector<std::uint32_t> welded(const std::vector<glm::vec3>& positions) {
     std::vector<std::uint32_t> order(positions.size()), place(positions.size());
     std::iota(order.begin(), order.end(), 0u);

@@ -7,11 +7,11 @@
 namespace nephroid::examples::gltf {
 
 struct Enclosure {
-    bool is_closed = false; ///< each edge has a triangle on either side that goes along it the other way
+    bool is_closed = false; ///< each edge belongs to two triangles, which traverse it in opposite directions
     double volume = 0;      ///< of a closed mesh, world units cubed; negative where its triangles face inwards
 };
 
-/// Vertices at one place count as one, as they are split where texture coordinates or normals are.
+/// Vertices at one position count as one, because files split them where texture coordinates or normals differ.
 [[nodiscard]] Enclosure enclosure_of(const MeshDescription& mesh);
 
 } // namespace nephroid::examples::gltf

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where a node shows its mesh: once, or as often as EXT_mesh_gpu_instancing says.
+/// @file  The instances of a node's mesh: one, or those of EXT_mesh_gpu_instancing.
 #pragma once
 
 #include "common/gltf/report.hpp"
@@ -12,7 +12,7 @@
 
 namespace nephroid::examples::gltf {
 
-/// The places of a node's mesh in the node's own space: the identity, without the extension.
+/// The transforms of a node's instances in the node's own space; the identity without the extension.
 /// Fails for attributes that differ in number, are of another type, or are not finite.
 [[nodiscard]] std::vector<glm::dmat4> instances_of(const tinygltf::Model& model, const tinygltf::Node& node,
                                                    std::string_view name, Budget& budget);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A look over a glTF's JSON before tinygltf gets it, for what tinygltf does not guard against.
+/// @file  Checks a glTF's JSON before tinygltf parses it, for problems that tinygltf does not check.
 #pragma once
 
 #include <cstddef>

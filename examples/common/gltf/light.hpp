@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a glTF node can hold besides meshes: a light of KHR_lights_punctual, a camera.
+/// @file  Reads a glTF node's light (KHR_lights_punctual) or camera.
 #pragma once
 
 #include "common/gltf.hpp"
@@ -12,13 +12,13 @@
 
 namespace nephroid::examples::gltf {
 
-/// The light that the node shows, where it does. A scale of the node has no effect on it.
+/// The node's light, if it has one. A scale of the node has no effect on it.
 ///
 /// @param node_name  for messages. Fails for an unknown type, a negative intensity, cones that are no cones
 [[nodiscard]] std::optional<LightDescription> light_of(const tinygltf::Model& model, const tinygltf::Node& node,
                                                        const glm::dmat4& to_world, std::string_view node_name);
 
-/// The camera that the node shows, where it does. A scale of the node has no effect on it, nor has a mirroring one.
+/// The node's camera, if it has one. A scale of the node has no effect on it, nor has a mirroring one.
 ///
 /// Fails for angles and sizes that are out of range.
 [[nodiscard]] std::optional<CameraDescription> camera_of(const tinygltf::Model& model, const tinygltf::Node& node,

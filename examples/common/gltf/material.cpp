@@ -82,7 +82,7 @@ glm::vec3 color_from(const std::vector<double>& factors, std::string_view owner,
             to_float(factors[2], owner, property)};
 }
 
-/// Of a surface by its opacity. Source: glTF 2.0, section 3.9.4, alpha coverage.
+/// The coverage of a surface from its opacity. Source: glTF 2.0, section 3.9.4, alpha coverage.
 float coverage_of(const tinygltf::Material& material, std::string_view owner, const Clamp& clamp) {
     const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
     const float alpha = factor.size() < 4 ? 1.f : clamp(to_float(factor[3], owner, "opacity"), "opacity");

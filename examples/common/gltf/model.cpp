@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 7> read_extensions{
     "KHR_materials_volume", "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",
 };
 
-/// They say only how images are stored or placed, and images are not read.
+/// These extensions are about images, which are not read.
 constexpr std::array<std::string_view, 4> image_extensions{"KHR_texture_transform", "KHR_texture_basisu",
                                                            "EXT_texture_webp", "EXT_texture_avif"};
 
@@ -56,7 +56,7 @@ bool is_glb(std::span<const unsigned char> bytes) {
     return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
 }
 
-/// Where a chunk of a .glb lies, checked against the end.
+/// A chunk of a .glb, which is known to end within the file.
 struct Chunk {
     std::size_t offset = 0; ///< of its content
     std::size_t size = 0;
@@ -75,9 +75,9 @@ Chunk chunk_at(const std::vector<unsigned char>& bytes, std::size_t offset, std:
     return chunk;
 }
 
-/// Checks the chunks and cuts off what tinygltf would stumble on: an empty binary chunk, and chunks of other types.
+/// Checks the chunks, and removes those that tinygltf cannot read: an empty binary chunk, and chunks of other types.
 ///
-/// @return  where the JSON lies
+/// @return  the chunk of the JSON
 Chunk prepare_glb(std::vector<unsigned char>& bytes) {
     if (bytes.size() < header_size + chunk_header_size)
         fail({"truncated .glb: ", std::to_string(bytes.size()), " bytes are less than its header"});

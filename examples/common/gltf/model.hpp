@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  From a file's bytes to tinygltf's model, which is then known to be complete, but not to be consistent.
+/// @file  Parses a file into tinygltf's model, which is then complete, but not checked for consistency.
 #pragma once
 
 #include "common/gltf/report.hpp"
@@ -10,7 +10,7 @@
 
 namespace nephroid::examples::gltf {
 
-/// Parses a .glb or .gltf, whichever the bytes are, and reads its buffers; images are not touched.
+/// Parses a .glb or .gltf, and reads its buffers, but no images.
 ///
 /// @param folder  where buffers that are files of their own are looked for
 /// Fails if it is broken, truncated, of another version, or requires an extension that is not read.

@@ -15,7 +15,7 @@ std::string name_of(const tinygltf::Model& model, std::size_t node) {
     return named("node", node, model.nodes[node].name);
 }
 
-/// Every node's parent, or `none`. Fails unless the nodes form trees, as glTF demands: then no walk is endless.
+/// Every node's parent, or `none`. Fails unless the nodes form trees, as glTF demands, so that every walk ends.
 std::vector<std::size_t> parents_of(const tinygltf::Model& model) {
     const std::size_t count = model.nodes.size();
     std::vector<std::size_t> parents(count, none);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The nodes of a glTF scene: where they begin, and a walk over them with their transforms.
+/// @file  The nodes of a glTF scene: its roots, and a walk over all nodes with their transforms.
 #pragma once
 
 #include "common/gltf/tinygltf.hpp"
@@ -13,11 +13,11 @@
 
 namespace nephroid::examples::gltf {
 
-/// The nodes that the scene starts from, each once. Fails unless all nodes of the file form trees, as glTF demands:
-/// then no walk is endless.
+/// The scene's root nodes, each once. Fails unless all nodes of the file form trees, as glTF demands, so that every
+/// walk ends.
 [[nodiscard]] std::vector<std::size_t> roots_of(const tinygltf::Model& model);
 
-/// What is done with a node: `name` is for messages.
+/// A function that visits a node; `name` is for messages.
 using VisitNode = std::function<void(const tinygltf::Node& node, const std::string& name, const glm::dmat4& to_world)>;
 
 /// Visits a node before its children, and children in their order.

@@ -92,12 +92,12 @@ glm::vec<3, Scalar> face_of(const std::vector<glm::vec3>& positions, const Trian
     return glm::cross(b - a, c - a);
 }
 
-/// Whether who works in float, or in double, would find no normal.
+/// Whether the triangle's normal vanishes in float or in double.
 bool has_no_area(const std::vector<glm::vec3>& positions, const Triangle& t) {
     return face_of<float>(positions, t) == glm::vec3(0) || face_of<double>(positions, t) == glm::dvec3(0);
 }
 
-/// Gives the vertices with a normal of zero the mean of the faces around, weighted by area.
+/// Replaces normals of zero by the mean normal of the faces around, weighted by area.
 void repair(std::vector<glm::vec3>& normals, const MeshDescription& mesh) {
     std::vector<glm::dvec3> sums(normals.size(), glm::dvec3(0));
     for (const Triangle& t : mesh.triangles)

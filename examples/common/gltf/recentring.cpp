@@ -19,7 +19,7 @@
 namespace nephroid::examples::gltf {
 namespace {
 
-/// An axis-aligned box; as made it is empty.
+/// An axis-aligned box; empty by default.
 struct Bounds {
     glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
 
@@ -36,8 +36,7 @@ struct Bounds {
     }
 };
 
-/// The bounds of an accessor's positions in the mesh's own space. What is wrong with the accessor is left to the reader
-/// of the mesh to say.
+/// The bounds of an accessor's positions in the mesh's own space. The mesh's reader reports errors of the accessor.
 Bounds bounds_of(const tinygltf::Model& model, int accessor) {
     Bounds bounds;
     try {
@@ -106,7 +105,7 @@ glm::dvec3 origin_for(const tinygltf::Model& model, const std::vector<std::size_
     const double radius = 0.5 * glm::length(subject.high - subject.low);
     if (!(glm::length(middle) > close_by * radius) || !(radius > 0))
         return glm::dvec3(0);
-    // On a grid of round numbers: what was built about such a point has its own coordinates again, to the last bit.
+    // On a grid of powers of two: a scene built around such a point gets back its own coordinates, to the last bit.
     const double step = std::exp2(std::floor(std::log2(radius)));
     return step * glm::round(middle / step);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What the glTF reader says about a file, and how much it lets a file ask for.
+/// @file  Messages of the glTF reader about a file, and a limit on the memory that a file may use.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ class Warnings {
 public:
     void add(std::string_view text);
 
-    /// All warnings, and a last line that tells how many more there were.
+    /// All warnings, and a last line with the number of further ones.
     [[nodiscard]] std::vector<std::string> take();
 
 private:

@@ -18,7 +18,7 @@ namespace {
 
 bool fits_float(double value) { return std::abs(value) <= double{std::numeric_limits<float>::max()}; }
 
-/// Whether the property is there; fails unless it then has `count` entries, finite in float.
+/// Whether a property is present. Fails if it is but has not `count` entries that are finite in float.
 bool has(const std::vector<double>& entries, std::size_t count, std::string_view node, std::string_view property) {
     if (entries.empty())
         return false;
@@ -37,7 +37,7 @@ glm::dmat4 from_matrix(const std::vector<double>& m, std::string_view name) {
             result[column][row] = m[static_cast<std::size_t>(4 * column + row)];
 
     const glm::dvec4 bottom(result[0].w, result[1].w, result[2].w, result[3].w - 1);
-    constexpr double tolerance = 1e-4; // of a matrix that was multiplied in float
+    constexpr double tolerance = 1e-4; // for matrices that were multiplied in float
     if (glm::dot(bottom, bottom) > tolerance * tolerance)
         fail({name, " has a matrix whose last row is not 0 0 0 1"});
     result[0].w = result[1].w = result[2].w = 0;

@@ -17,8 +17,8 @@ namespace nephroid::examples::gltf {
 /// Fails if something in it is not finite in float, has the wrong number of entries, or is not affine.
 [[nodiscard]] glm::dmat4 local_transform(const tinygltf::Node& node, std::string_view name);
 
-/// What normals are multiplied with, before they get their length back: the transposed inverse up to a positive factor,
-/// also where there is no inverse. `mirrored` says whether the map turns a right hand into a left one.
+/// The matrix for normals, which are normalised afterwards: the transposed inverse up to a positive factor, even if
+/// there is no inverse. `mirrored` says whether the transform contains a reflection.
 struct NormalTransform {
     glm::dmat3 matrix;
     bool mirrored;

@@ -84,7 +84,7 @@ Samples read_hdr(const std::filesystem::path& path) {
         throw std::runtime_error("'" + path.string() + "' is no .hdr that can be read: " + stbi_failure_reason());
     Samples picture(static_cast<std::size_t>(width), static_cast<std::size_t>(height), 3, {});
     const std::size_t row = 3 * picture.width;
-    for (std::size_t y = picture.height; y-- > 0;) // it has its top row first
+    for (std::size_t y = picture.height; y-- > 0;) // .hdr files have the top row first
         picture.samples.insert(picture.samples.end(), samples.get() + y * row, samples.get() + (y + 1) * row);
     return picture;
 }

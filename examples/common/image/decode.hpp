@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Images that others wrote: the textures of glTF files, and Radiance's .hdr.
+/// @file  Reads images in common formats: the textures of glTF files, and Radiance's .hdr.
 #pragma once
 
 #include "common/image/image.hpp"
@@ -24,10 +24,10 @@ struct Decoded16 {
     std::vector<std::uint16_t> rgb;
 };
 
-/// Pixels of a PNG or JPEG in memory, from its header alone; 0 for what is neither.
+/// Pixels of a PNG or JPEG in memory, from its header alone; 0 for other files.
 [[nodiscard]] std::size_t pixels_of_image(std::span<const unsigned char> file);
 
-/// Decodes a PNG or JPEG. Throws std::runtime_error with the reason, in a few words, for what is neither.
+/// Decodes a PNG or JPEG. Throws std::runtime_error with a short reason for other files.
 [[nodiscard]] DecodedImage decode_image(std::span<const unsigned char> file);
 
 /// Reads a PNG of 8 or 16 bits per channel. Throws std::runtime_error, one line with the path and the reason.

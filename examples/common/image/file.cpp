@@ -65,7 +65,7 @@ private:
     bool kept_ = false;
 };
 
-/// Where the bytes go: the path itself or, of a symbolic link, what it points to. Refuses what must not be replaced.
+/// The file to be written: the path itself or the target of a symbolic link. Refuses files that must not be replaced.
 fs::path resolve(const fs::path& path) {
     if (path.empty())
         throw std::runtime_error("cannot write an image: the path is empty");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The image that the examples render into, and its flat form that the writers take.
+/// @file  The image type of the examples, and the flat array of samples that image files hold.
 #pragma once
 
 #include <array>
@@ -41,7 +41,7 @@ concept ColourPixel = !GreyPixel<P> && requires(const P pixel) {
     requires sizeof(pixel) >= 3 * sizeof(pixel[0]);
 };
 
-/// An image as a file holds it: 32-bit samples, grey or red, green, blue. Any `Image` turns into one by itself.
+/// An image as a file holds it: 32-bit samples, grey or red, green, blue. Converts from any `Image`.
 struct Samples {
     std::size_t width = 0, height = 0;
     std::size_t channels = 1;   ///< 1 or 3
@@ -68,8 +68,8 @@ struct Samples {
     }
 };
 
-/// Refuses what no file should hold: no pixels, a wrong number of them, a sample that is infinite or undefined
-/// (a double beyond the range of float counts as infinite). Throws std::invalid_argument that names the pixel.
+/// Refuses images without pixels, with a wrong number of them, or with samples that are infinite or NaN (a double
+/// beyond the range of float counts as infinite). Throws std::invalid_argument that names the pixel.
 ///
 /// @param function  whose argument it is, for the message: "write_pfm"
 void require_writable_samples(const std::string& function, const Samples& image);

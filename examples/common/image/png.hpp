@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  PNG for looking at: 8 bits per channel, exposed, clipped, sRGB-encoded.
+/// @file  PNG for viewing: 8 bits per channel, exposed, clipped, sRGB-encoded.
 #pragma once
 
 #include "common/image/image.hpp"

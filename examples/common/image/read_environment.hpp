@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Reading a picture of what is all around.
+/// @file  Reads a picture of an environment.
 #pragma once
 
 #include "common/image/image.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Reading a PNG as linear light.
+/// @file  Reads a PNG as linear light.
 #pragma once
 
 #include "common/image/image.hpp"
@@ -8,8 +8,8 @@
 
 namespace nephroid::examples {
 
-/// Reads a .png of 8 or 16 bits per channel, decoded from sRGB; grey becomes three equal channels, transparency is not
-/// looked at. Row 0 is the bottom one.
+/// Reads a .png of 8 or 16 bits per channel, decoded from sRGB; grey becomes three equal channels, transparency is
+/// ignored. Row 0 is the bottom one.
 /// Throws std::runtime_error, one line with the path and the reason.
 [[nodiscard]] Image<Rgb> read_png(const std::filesystem::path& path);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file  The oracle: a path over a chain of surfaces, its derivatives by differences in wide precision, and their
-///        condition, that is how much they change with the numbers that define the problem.
+///        condition numbers: how much they change with the numbers that define the problem.
 #pragma once
 
 #include "common/numerics/surface.hpp"
@@ -15,7 +15,7 @@ struct Chain {
     Point<double> position, direction;
     std::array<Point<double>, 2> d_position, d_direction; ///< the emission's tangents
     std::vector<Surface<double>> surfaces;
-    std::vector<Point<double>> meetings; ///< where, to double: one for each surface
+    std::vector<Point<double>> meetings; ///< points where the path meets the surfaces, in double
 };
 
 /// Perturbs nothing.
@@ -41,14 +41,14 @@ public:
         number(p.y);
         number(p.z);
     }
-    /// A unit vector that was computed: its components change by delta of its length.
+    /// Perturbs the components of a computed unit vector by delta of its length.
     void unit(Point<Dual>& p) {
         p.x.value += change();
         p.y.value += change();
         p.z.value += change();
         tangents(p);
     }
-    /// The derivatives: their components change by delta of their length.
+    /// Perturbs the components of the derivatives by delta of their length.
     void tangents(Point<Dual>& p) {
         for (std::size_t j = 0; j < 2; ++j) {
             const double length = derivative_of(p, j).length();
@@ -80,8 +80,8 @@ template <class S, class N>
     return s;
 }
 
-/// What a path did: one bit for each surface that it passed through, one for each whose two normals disagree on which
-/// side the ray comes from or leaves to, and whether it arrived.
+/// The course of a path: one bit for each surface that it passed through, one for each surface whose two normals
+/// disagree about the side of the arriving or leaving ray, and whether the path reached the receiver.
 struct Course {
     std::uint32_t passed = 0;
     std::uint32_t torn = 0;
@@ -90,8 +90,8 @@ struct Course {
     friend bool operator==(const Course&, const Course&) = default;
 };
 
-/// The path: from the emission to the last surface, whose hit is `x`; `w` is the direction that it arrives in. What is
-/// handed from one station to the next passes the nudge.
+/// The path: from the emission to the last surface, whose hit is `x`; `w` is the direction of arrival. The nudge
+/// perturbs everything that one step hands to the next.
 template <class S, class N>
 [[nodiscard]] Line<S> follow(const Chain& chain, Line<S> ray, N& nudge, Course* course = nullptr) {
     for (std::size_t i = 0; i < chain.surfaces.size(); ++i) {
@@ -141,9 +141,9 @@ struct Truth {
     Point<double> normal;        ///< of the receiver, unit
 };
 
-/// Central differences of the whole path, twice extrapolated; what the last extrapolation changes estimates the error.
+/// Central differences of the whole path, extrapolated twice; the last extrapolation's change estimates the error.
 [[nodiscard]] inline Truth differentiate(const Chain& chain) {
-    // Truncation (h/ρ)^6 is nothing down to ρ = 1e-8, rounding 2^-75 of the condition.
+    // The truncation error (h/ρ)^6 is negligible down to ρ = 1e-8, the rounding error is 2^-75 of the condition.
     const Wide h = power_of_two(-38);
     Truth truth{};
     Steady steady;
@@ -195,9 +195,9 @@ template <class N>
     return normal.dot(t.d_position[0].cross(t.d_position[1]));
 }
 
-/// How far each result moves, per unit of relative change, when every number of the problem and every number that is
-/// handed from one station of the path to the next changes by as much with a sign of its own: the root of the mean
-/// square, so that it is that of the sum over all numbers of their squared effects.
+/// The change of each result, per unit of relative change, if every number of the problem and every number that one
+/// step of the path hands to the next is changed by the same relative amount with a random sign: the root mean square,
+/// which is the root of the sum of the squared effects of all numbers.
 struct Sensitivity {
     std::array<double, 4> of;
     double determinant;
@@ -226,7 +226,7 @@ struct Sensitivity {
     return sum;
 }
 
-/// Whether changes of this size leave the path on its course: no ball is missed, nothing else is totally reflected.
+/// Whether perturbations of this size do not change the path's course: no missed ball, no other total reflection.
 [[nodiscard]] inline bool keeps_course(const Chain& chain, double delta) {
     const auto course = [&](double change, std::uint32_t seed) {
         Nudge nudge(change, seed);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A group's cases, run and measured: how far the library's tangents are from the oracle's, in units of the
+/// @file  Runs and measures a group's cases: the error of the library's tangents against the oracle's, in units of the
 ///        problem's condition times the machine epsilon.
 #pragma once
 
@@ -15,22 +15,22 @@ namespace nephroid::examples::numerics {
 /// One case. The determinant of the footprint counts as a result beside the four derivatives.
 struct Measured {
     Chain chain;
-    std::uint32_t number = 0;  ///< which of the generator's
+    std::uint32_t number = 0;  ///< index in the generator's sequence
     double relative_error = 0; ///< the largest of the four derivatives
     double condition = 0;      ///< the largest of the four: relative change over relative change
     double units = 0;          ///< the largest of the five: error / (condition × epsilon), absolute both
     double oracle_units = 0;   ///< the oracle's own estimated error, in the same units
-    const char* what = "";     ///< which derivative has that
+    const char* what = "";     ///< the derivative with that error
 };
 
 struct Row {
     Group group = Group::ordinary;
     std::vector<Measured> cases;
-    std::size_t ill_posed = 0; ///< further cases, in which rounding the input alone moves the result by a hundredth,
-                               ///< or onto another path: nothing is asked of them but finite numbers
+    std::size_t ill_posed = 0; ///< other cases, in which the rounding of the input alone changes the result by 1%, or
+                               ///< changes the path's course; these must only give finite numbers
     std::size_t lost = 0;      ///< well-posed cases whose photon did not arrive
     std::size_t lost_ill_posed = 0;
-    std::size_t not_finite = 0; ///< of all
+    std::size_t not_finite = 0; ///< of all cases
     double emitted = 0, accounted = 0;
 
     [[nodiscard]] double median(double Measured::*column) const { return quantile(column, 0.5); }
@@ -68,7 +68,7 @@ template <class T>
             continue;
         const Truth truth = differentiate(*chain);
         const Sensitivity moves = sensitivity(*chain, truth.normal);
-        // A walk starts its rays 16 roundings off a surface, of each of three lengths: what that decides is not posed.
+        // A walk starts rays up to 48 roundings off a surface, so a case that this decides is not well posed.
         bool well_posed = keeps_course(*chain, 48 * epsilon);
         for (std::size_t i = 0; i < Tangents::size; ++i)
             well_posed =

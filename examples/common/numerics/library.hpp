@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The library on the oracle's chains: a tracer whose hits are exact but for their rounding, and what comes out.
+/// @file  Runs the library on the oracle's chains, with a tracer whose hits are exact except for rounding.
 #pragma once
 
 #include "common/numerics/chain.hpp"
@@ -57,7 +57,7 @@ public:
     [[nodiscard]] static Point<Wide> widen(const V& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
 
 private:
-    /// How the normal changes, said in a different way by each kind of surface.
+    /// The curvature, in a different form for each kind of surface.
     [[nodiscard]] Normals normals(const Surface<Wide>& s, const Meeting<Wide>& m) const {
         const Point<Wide>& n = m.face;
         switch (s.kind) {
@@ -97,10 +97,10 @@ private:
     }
 
     const Chain& chain_;
-    mutable std::size_t next_ = 0; // one walk a scene
+    mutable std::size_t next_ = 0; // a scene serves one walk
 };
 
-/// A sampler whose numbers do not matter, as a chain leaves no choice.
+/// A sampler whose numbers do not matter, because a chain has no random choices.
 struct NoChoice {
     template <class T>
     [[nodiscard]] T next() const {
@@ -125,7 +125,7 @@ struct Outcome {
 };
 
 /// The tangents where `nephroid::walk` deposits the photon; nothing if the photon did not arrive. A deposit has no
-/// `d_direction`: that comes from the same steps, taken one by one.
+/// `d_direction`, which is computed by the same steps one by one.
 template <class T>
 [[nodiscard]] std::optional<Outcome<T>> run_library(const Chain& chain, Statistics& account) {
     using V = glm::vec<3, T>;

@@ -26,7 +26,7 @@ struct Space {
     }
     [[nodiscard]] Wide length() const { return sqrt(dot(*this)); }
     [[nodiscard]] Space unit() const { return (Wide(1) / length()) * *this; }
-    /// Without its part along the unit vector n.
+    /// The vector without its part along the unit vector n.
     [[nodiscard]] Space across(const Space& n) const { return *this - dot(n) * n; }
 };
 
@@ -105,18 +105,18 @@ template <class F>
     return std::pow(h / radius, 4) / radius + 64 * power_of_two(1 - Wide::digits) * 6 / h;
 }
 
-/// Reproducible anywhere: integer arithmetic, and numbers that float holds exactly.
+/// Random numbers that are the same on every machine: integer arithmetic, and numbers that are exact in float.
 class Draws {
 public:
     explicit Draws(std::uint32_t seed) : state_(seed) {}
 
-    /// In [low, high), on a grid of 2^-24 of the range.
+    /// A number in [low, high), on a grid of 2^-24 of the range.
     [[nodiscard]] double in(double low, double high) {
         state_ ^= state_ << 13, state_ ^= state_ >> 17, state_ ^= state_ << 5; // xorshift, Marsaglia 2003
         return low + (high - low) * static_cast<double>(state_ >> 8) / 16777216;
     }
     [[nodiscard]] Space in_cube() { return {in(-1, 1), in(-1, 1), in(-1, 1)}; }
-    /// Uniform on the sphere.
+    /// A direction, uniform on the sphere.
     [[nodiscard]] Space direction() {
         for (;;) {
             const Space v = in_cube();

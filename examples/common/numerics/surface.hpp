@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Analytic surfaces, and where a ray meets them, for every kind of number. Nothing here is the library's, and
-///        no normal is differentiated.
+/// @file  Analytic surfaces and their intersections with rays, for every kind of number. They use nothing of the
+///        library, and no normal is differentiated.
 #pragma once
 
 #include "common/numerics/arithmetic.hpp"
@@ -25,8 +25,8 @@ inline constexpr std::array<const char*, kind_count> kind_names = {"plane", "sph
 template <class S>
 struct Surface {
     Kind kind = Kind::plane;
-    bool first = true;     ///< sphere, cylinder: whether the ray meets it where it would enter it
-    bool refracts = false; ///< else it reflects; beyond the critical angle it does anyway
+    bool first = true;     ///< sphere, cylinder: whether the ray meets the side that it would enter through
+    bool refracts = false; ///< otherwise it reflects, as it does beyond the critical angle
     S eta = S(1);          ///< n₁/n₂
     std::array<Point<S>, 6> point{};
     std::array<S, 2> number{};
@@ -75,7 +75,7 @@ template <class S>
     return {q.cross(e2).dot(face) / whole, e1.cross(q).dot(face) / whole};
 }
 
-/// @param about  near the intersection that is meant, as a torus and a wave have several
+/// @param about  a point near the wanted intersection, because a torus and a wave have several
 template <class S>
 [[nodiscard]] Meeting<S> meet(const Surface<S>& s, const Line<S>& ray, const Point<double>& about) {
     const Point<S>&x = ray.x, &w = ray.w;

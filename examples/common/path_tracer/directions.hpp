@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The directions above a floor unrolled into the unit square, and the square cut into cells.
+/// @file  Maps the directions above a floor to the unit square, and divides the square into cells.
 #pragma once
 
 #include "common/ray.hpp"
@@ -49,7 +49,7 @@ public:
         return {((cell & (side() - 1)) + u) / side(), ((cell >> level_) + v) / side()};
     }
 
-    /// Calls visit(cell) for a cell and the up to eight about it.
+    /// Calls visit(cell) for a cell and its neighbours, up to eight.
     template <class Visit>
     void for_neighbourhood(std::uint32_t cell, Visit&& visit) const {
         const std::uint32_t x = cell & (side() - 1), y = cell >> level_, last = side() - 1;
@@ -78,7 +78,7 @@ inline void sort_unique(Cells& cells) {
     cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
-/// The cells and all that touch them, sorted.
+/// The cells and all their neighbours, sorted.
 [[nodiscard]] inline Cells grown(const DirectionGrid& grid, const Cells& cells) {
     Cells more;
     more.reserve(4 * cells.size());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A light as something to be hit: what photons start from, for paths that go the other way.
+/// @file  A light as a surface that paths can hit, for paths in the opposite direction of photons.
 #pragma once
 
 #include "common/ray.hpp"
@@ -11,8 +11,8 @@
 
 namespace nephroid::examples {
 
-/// A disk or a sphere of constant radiance. It is light and nothing else: as the library's lights do, it lets all rays
-/// pass. The disk emits on the side of its normal, the sphere outwards.
+/// A disk or a sphere of constant radiance. Like the library's lights, it does not block rays. The disk emits on the
+/// side of its normal, the sphere outwards.
 template <class T, Flux F>
 struct Emitter {
     Vec3<T> centre;
@@ -46,7 +46,7 @@ private:
         return length2(Vec3<T>(t * direction - to_centre)) <= square(radius) ? std::optional<T>(t) : std::nullopt;
     }
 
-    /// Where a ray enters: one that starts inside meets only the dark side.
+    /// The distance at which a ray enters the sphere; a ray from inside meets only the dark side.
     [[nodiscard]] std::optional<T> on_sphere(const Vec3<T>& direction, const Vec3<T>& to_centre) const {
         const T middle = dot(to_centre, direction);
         const T half_chord2 = square(radius) - length2(Vec3<T>(middle * direction - to_centre));

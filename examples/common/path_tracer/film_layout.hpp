@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The film on the floor in pixels, in blocks of pixels that share what is learnt, and in tiles of blocks.
+/// @file  Divides the film on the floor into pixels, blocks of pixels that learn together, and tiles of blocks.
 #pragma once
 
 #include "common/builtin_cases.hpp"
@@ -40,7 +40,7 @@ public:
         block_pixels(block).for_each([&](Place place) { visit(pixels_.index(place.x, place.y)); });
     }
 
-    /// The up to eight blocks about one.
+    /// Visits the neighbours of a block, up to eight.
     template <class Visit>
     void for_neighbours_of(std::size_t block, Visit&& visit) const {
         const Place at = blocks_.count.at(block);
@@ -53,7 +53,7 @@ public:
     }
 
 private:
-    // As many as make memory and the pilot's effort about the same for every film.
+    // These bounds make memory and the pilot's effort about the same for every film.
     static constexpr std::size_t most_blocks = 256, most_tiles = 32;
 
     struct Place {

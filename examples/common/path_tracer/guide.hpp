@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where to look for light: a density of directions, learnt, that is constant in each cell of a grid.
+/// @file  A guide to light: a learned density of directions, constant in each cell of a grid.
 #pragma once
 
 #include "common/path_tracer/directions.hpp"
@@ -12,8 +12,7 @@
 
 namespace nephroid::examples {
 
-/// Cells of a grid of directions with weights: whole numbers, so that what is chosen has exactly the density that it is
-/// said to have.
+/// Cells of a grid of directions with integer weights, so that the chosen direction has exactly the returned density.
 class Guide {
 public:
     struct WeightedCell {
@@ -21,7 +20,7 @@ public:
         std::uint32_t weight; ///< 1 to `full_weight`
     };
     static constexpr std::uint32_t full_weight = 255;
-    static constexpr std::uint32_t edge_weight = 40; ///< of cells next to those that have shown light
+    static constexpr std::uint32_t edge_weight = 40; ///< of neighbours of cells in which light was seen
 
     Guide() = default;
 
@@ -41,7 +40,7 @@ public:
         double share; ///< of the weight
     };
 
-    /// @param place  in [0, 1): by how much of the weight to go into the list, which must not be empty
+    /// @param place  in [0, 1): a point of the cumulated weight. The list must not be empty
     [[nodiscard]] Choice choose(double place) const {
         const auto target = (std::min)(static_cast<std::uint32_t>(place * total()), total() - 1);
         const auto found = std::upper_bound(entries_.begin(), entries_.end(), target,

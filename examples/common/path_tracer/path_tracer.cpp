@@ -41,12 +41,12 @@ void check(const BuiltinCase<double, double>& builtin, std::size_t width, std::s
         refuse("a limit of " + nephroid::detail::text_of(options.seconds) + " seconds; pass 0 or more");
 }
 
-/// How many directions are drawn from which density.
+/// The numbers of directions drawn from each density.
 struct Shares {
     unsigned light, halo, specular, uniform;
 
-    /// @param wary  of the samples, >= 1: how many look where light has not been seen. Half of them look close to where
-    ///              it has, an eighth anywhere
+    /// @param wary  how many of the samples look where no light has been seen, >= 1. Half of these look close to known
+    ///              light, an eighth anywhere
     Shares(unsigned samples, unsigned wary, bool has_light, bool has_halo, bool has_specular)
         : light(has_light ? samples - wary : 0), halo(has_halo ? wary / 2 : 0),
           specular(has_specular ? (wary - halo) - (wary + 7) / 8 : 0), uniform(wary - halo - specular) {}
@@ -67,7 +67,7 @@ public:
 
     struct Choice {
         double u, v;        ///< in the unit square of directions
-        double density;     ///< of all samples together, over that square
+        double density;     ///< of all samples together, over the square
         std::uint32_t cell; ///< of the fine grid
         bool expected;      ///< whether light has been seen in the cell, or next to it
     };
@@ -157,8 +157,8 @@ private:
         executor_(layout_.blocks(), [this](std::size_t block) { learn(block); });
     }
 
-    /// What came as a surprise, to this block or to those about it, is looked for from the next pass on. That pass's
-    /// estimate is right whatever the passes before it saw.
+    /// Adds the surprises of this block and its neighbours to the guide for the next passes. Their estimates stay
+    /// unbiased, whatever earlier passes saw.
     void learn(std::size_t block) {
         Cells news = surprises_[block];
         layout_.for_neighbours_of(block, [&](std::size_t other) {
@@ -168,7 +168,7 @@ private:
             guidance_.light[block].add(grown(guidance_.fine, news));
     }
 
-    /// @param surprises  gets the cells in which light was seen that was not looked for
+    /// @param surprises  gets the cells in which light was seen unexpectedly
     [[nodiscard]] double estimate(std::size_t pixel, const Mixture& mixture, const RandomSequence& numbers,
                                   Cells& surprises) const {
         const FilmRectangle area = layout_.pixel(pixel);
@@ -206,7 +206,7 @@ private:
     FilmLayout layout_;
     SpecularPaths paths_;
     Guidance guidance_;
-    std::vector<Cells> surprises_; ///< by block: the cells where the last pass saw light that it did not look for
+    std::vector<Cells> surprises_; ///< by block: the cells in which the last pass saw light unexpectedly
     std::uint64_t passes_ = 0;
     std::vector<double> deviation2_; ///< by pixel: sum of the squared deviations of the passes from their mean
     PathTracedReference result_;

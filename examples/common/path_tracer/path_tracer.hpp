@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A reference for caustics without an exact answer: paths from the floor to the light, with a standard error.
+/// @file  A path traced reference for caustics without an exact solution, with a standard error.
 #pragma once
 
 #include "common/builtin_cases.hpp"
@@ -18,12 +18,12 @@ namespace nephroid::examples {
 struct PathTraceOptions {
     std::uint64_t samples = 4096; ///< paths from each pixel, rounded up to whole passes, >= 1
     double seconds =
-        std::numeric_limits<double>::infinity(); ///< no further pass is begun after these; the first two are
+        std::numeric_limits<double>::infinity(); ///< no pass begins after this time, except for the first two
     unsigned samples_per_pass = 16;              ///< >= 4, <= 65536. A pass is one estimate of the picture
-    unsigned specular_events = 1u << 16; ///< paths that would need more are left out, as photons under such a limit
-    unsigned pilot = 4;                  ///< paths into each cell of directions while learning where light is, >= 1
-    unsigned rehearsals = 64;            ///< passes before the first that counts, all samples of which look for light
-                                         ///< where none is expected
+    unsigned specular_events = 1u << 16;         ///< longer paths are left out, as photons are with such a limit
+    unsigned pilot = 4;                          ///< paths into each cell of directions during the pilot, >= 1
+    unsigned rehearsals = 64; ///< passes before the first one that counts; all their samples look for light
+                              ///< where none is expected
     std::uint64_t seed = 0;
 };
 
@@ -43,11 +43,11 @@ using PathTraceProgress = std::function<bool(const PathTracedReference&)>;
 /// mirrors and glass, to what of the light is hit.
 ///
 /// Directions are drawn from several densities at once and weighted by their sum (the balance heuristic of Veach and
-/// Guibas 1995): most over small cells of directions in which light was seen from about here, by a pilot or by the
-/// passes so far; some over larger cells around those; some over all directions in which specular surfaces are seen;
-/// some over all directions, uniform in projected solid angle. The last make sure that no light is left out. What only
-/// they find is noise, and in the standard error; where a pixel had too few such finds to know, that is too small.
-/// Hence the rehearsals, passes that only look for light and are thrown away.
+/// Guibas 1995): most over small cells of directions in which a pilot or earlier passes saw light from nearby; some
+/// over larger cells around those; some over all directions in which specular surfaces are seen; some over all
+/// directions, uniform in projected solid angle. The last ones make the estimate unbiased. Light that only they find is
+/// noise, which the standard error shows; for a pixel with too few such finds, the standard error is too small.
+/// Therefore there are rehearsals: passes that only look for light, and do not count.
 ///
 /// The result is the same bit for bit for any number of threads; it depends on the clock only through `seconds`.
 /// Throws std::invalid_argument for a film or options out of range, and for a case with a light that has no area: no

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a path sees that leaves a diffuse surface and is followed through mirrors and glass to a light.
+/// @file  Follows paths from a diffuse surface through mirrors and glass to a light.
 #pragma once
 
 #include "common/path_tracer/emitter.hpp"
@@ -15,17 +15,17 @@ namespace nephroid::examples {
 
 /// The end of a path.
 struct Seen {
-    double radiance = 0;       ///< that comes back along the path, of light that met a specular surface
-    bool met_specular = false; ///< whether there was any such surface on the way
+    double radiance = 0;       ///< along the path, of light that met a specular surface
+    bool met_specular = false; ///< whether the path met a specular surface
 };
 
-/// Follows paths against the light, as the library's walk follows photons along with it: what one carries from a light
-/// to the floor, the other finds from the floor.
+/// Follows paths in the opposite direction of the library's walk: they find from the floor the light that photons carry
+/// to the floor.
 class SpecularPaths {
 public:
     using Vec = Vec3<double>;
 
-    /// Refers to both; they have to outlive it.
+    /// The scene and the emitters are kept by reference, and must outlive this object.
     /// @param specular_events  reflections and refractions after which a path that meets one more ends
     SpecularPaths(const Scene<double, double>& scene, const Emitters<double, double>& emitters,
                   unsigned specular_events)
@@ -33,7 +33,7 @@ public:
 
     /// @param origin     on a diffuse surface, or moved off it
     /// @param direction  unit
-    /// @param sampler    drawn from where glass both reflects and refracts
+    /// @param sampler    used where glass both reflects and refracts
     template <class Sampler>
     [[nodiscard]] Seen operator()(Vec origin, Vec direction, Sampler& sampler) const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -78,9 +78,9 @@ private:
     }
 
     /// Reflects or refracts the direction.
-    /// @return  what becomes of radiance besides: light that is spread over more directions in a thinner medium comes
-    ///          from fewer in a denser one, so (n₁/n₂)² for a path that goes from n₁ to n₂; 0 for a direction
-    ///          through the wrong side of a surface with shading normals, where the path ends
+    /// @return  the factor of the radiance: (n₁/n₂)² for a path that goes from n₁ to n₂, because refraction
+    ///          changes the solid angle of the light; 0 if the shading normal sends the path to the wrong side, where
+    ///          it ends
     [[nodiscard]] static double bend(const Hit<double>& hit, const Bounce<double, double>& bounce, Vec& direction) {
         const double side = dot(direction, hit.geometric_normal) > 0 ? -1 : 1;
         const Vec geometric = side * hit.geometric_normal, normal = side * hit.shading_normal;

@@ -11,14 +11,14 @@ namespace nephroid::examples {
 
 namespace {
 
-constexpr unsigned coarse_level = 6;           // 4096 cells, each 1/20 across at the zenith
-constexpr unsigned finest_level = 10;          // beyond this, memory
-constexpr double cells_wanted = 1024;          // that see the enlarged light, for an average block: 64 see it as it is
-constexpr unsigned rounds_of_gossip = 2;       // between blocks
+constexpr unsigned coarse_level = 6;   // 4096 cells, each 1/20 across at the zenith
+constexpr unsigned finest_level = 10;  // beyond this, memory
+constexpr double cells_wanted = 1024;  // from which an average block sees the enlarged light; 64 see the real one
+constexpr unsigned sharing_rounds = 2; // between blocks
 constexpr std::array enlargements{1., 2., 4.}; // of the lights: in the fine grid, that before, and all before those
 
-/// The lights and, for a factor above 1, larger ones round the same places: who is inside of those still sees the
-/// others.
+/// The lights and, for a factor above 1, larger ones with the same centres. Points inside of these still see the real
+/// lights.
 [[nodiscard]] Emitters<double, double> enlarged(Emitters<double, double> emitters, double factor) {
     const std::size_t count = emitters.size();
     for (std::size_t i = 0; factor > 1 && i < count; ++i) {
@@ -28,7 +28,7 @@ constexpr std::array enlargements{1., 2., 4.}; // of the lights: in the fine gri
     return emitters;
 }
 
-/// What the paths into one cell saw.
+/// What the paths into one cell found.
 struct Finding {
     std::uint32_t cell;
     double light2;     ///< mean square of the radiance
@@ -52,20 +52,20 @@ public:
         guidance_.fine = DirectionGrid(fine_level());
         found_.resize(layout_.blocks());
         executor_(layout_.blocks(), [this](std::size_t block) { explore_block(block); });
-        for (unsigned round = 0; round < rounds_of_gossip; ++round)
-            gossip(round);
+        for (unsigned round = 0; round < sharing_rounds; ++round)
+            share_findings(round);
         guidance_.light.resize(layout_.blocks());
         executor_(layout_.blocks(), [this](std::size_t block) { guidance_.light[block] = guide_for(block); });
         return std::move(guidance_);
     }
 
 private:
-    /// The lights as large as they are to be for a grid.
+    /// The lights in the size for a grid.
     [[nodiscard]] const Emitters<double, double>& emitters_for(const DirectionGrid& grid) const {
         return emitters_[(std::min)(emitters_.size() - 1, std::size_t(guidance_.fine.level() - grid.level()))];
     }
 
-    /// Looks from all over an area into each of some cells.
+    /// Follows paths from all over an area into each of the given cells.
     ///
     /// @param stage,index  what the random numbers are for: different pairs, different numbers
     [[nodiscard]] std::vector<Finding> look(const FilmRectangle& area, const DirectionGrid& grid, const Cells& cells,
@@ -146,9 +146,9 @@ private:
         } while (grid.level() < guidance_.fine.level() && !cells.empty());
     }
 
-    /// Each block looks where those about it have seen light. What is small or faint is found by some and told to
-    /// others.
-    void gossip(unsigned round) {
+    /// Each block looks where its neighbours have seen light, so that small or faint light found by one block is known
+    /// to the others.
+    void share_findings(unsigned round) {
         std::vector<std::vector<Finding>> news(layout_.blocks());
         executor_(layout_.blocks(), [&](std::size_t block) {
             const Cells told = cells_known_about(block), known = cells_of(found_[block]);

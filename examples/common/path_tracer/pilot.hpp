@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Finding out where light comes from, before a picture is taken: coarsely for tiles of the film, finely for
-/// blocks.
+/// @file  The pilot: finds the directions from which light comes, coarsely for tiles of the film and finely for blocks.
 #pragma once
 
 #include "common/path_tracer/film_layout.hpp"
@@ -16,13 +15,14 @@ namespace nephroid::examples {
 /// An executor (execution/executor.hpp) of unknown kind.
 using AnyExecutor = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;
 
-/// What is known of where light comes from.
+/// The directions from which light comes, as far as known.
 struct Guidance {
     DirectionGrid coarse{0}, fine{0};
-    std::vector<CellSet> specular; ///< for each tile, in the coarse grid: cells with anything specular to be seen, and
-                                   ///< those around
-    std::vector<CellSet> halo;     ///< the same for cells with light, had the lights been larger than they are
-    std::vector<Guide> light;      ///< for each block, in the fine grid: cells with light, and those around
+    std::vector<CellSet>
+        specular;              ///< for each tile, in the coarse grid: cells in which specular surfaces are seen, and
+                               ///< their neighbours
+    std::vector<CellSet> halo; ///< the same for cells with light, had the lights been larger than they are
+    std::vector<Guide> light;  ///< for each block, in the fine grid: cells with light, and those around
 };
 
 struct PilotOptions {
@@ -31,10 +31,10 @@ struct PilotOptions {
     std::uint64_t seed;
 };
 
-/// Follows paths from all over the film into all cells, then into the parts of those cells where light is, and so on.
-/// At first the lights are made larger than they are, so that what sees little of them is found as well.
+/// Follows paths from all over the film into all cells, then into the parts of the cells with light, and so on. At
+/// first the lights are enlarged, so that cells that see little of them are found as well.
 ///
-/// What it finds makes no picture right or wrong, only less noisy: it may miss what is rare.
+/// The result only affects the noise of a picture and not its mean, so the pilot may miss rare light.
 ///
 /// @return  the same for any executor
 [[nodiscard]] Guidance explore(const BuiltinCase<double, double>& builtin, const FilmLayout& layout,

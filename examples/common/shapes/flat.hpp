@@ -26,9 +26,8 @@ template <class T>
 
 /// The unbounded plane z = height. Its normal points up.
 ///
-/// With a period the world repeats itself along x and y, and a hit is reported within the first copy: its `position` is
-/// wrapped into 0 <= x, y < period, while its `distance` is the one flown. What is next to the seam on the other side
-/// then has to be looked for in both places.
+/// With a period the plane repeats along x and y. The `position` of a hit is wrapped into 0 <= x, y < period, while its
+/// `distance` is that along the ray. A look-up near the border then has to search on both sides.
 template <class T>
 class Floor {
     using wide = wide_t<T>;
@@ -59,7 +58,7 @@ private:
         if (!(period > 0))
             return x;
         const T rest = T(x - period * wide(std::floor(double(x / period))));
-        return rest < period_ && rest >= T(0) ? wide(rest) : wide(0); // rounding may have put it onto the end
+        return rest < period_ && rest >= T(0) ? wide(rest) : wide(0); // rounding may have moved it to the end
     }
 
     T height_;

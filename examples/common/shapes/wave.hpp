@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A sine wave on water: a height field that a ray may cross many times, of which the first counts.
+/// @file  A sine wave on water: a height field. A ray may cross it many times; the first crossing counts.
 #pragma once
 
 #include "common/ray.hpp"
@@ -44,7 +44,7 @@ public:
     }
 
     [[nodiscard]] Hit<T> hit(const Ray<T>& ray, const Candidate<T>& candidate) const {
-        // The height is taken where x and y are rounded to, so that it is their rounding that does not matter.
+        // The height is computed at the rounded x and y, so that their rounding does not matter.
         const WideVec3 flown = widen(ray.origin) + candidate.distance * widen(ray.direction);
         const wide x = rounded(flown.x), y = rounded(flown.y), k_x(o_.kx), k_y(o_.ky), a(o_.amplitude);
         const wide phase = two_pi * (k_x * x + k_y * y), slope = a * two_pi * cos(phase);
@@ -70,8 +70,8 @@ private:
         }
     }
 
-    /// The distance to a crossing with the derivatives that the ray's own give it, for a scalar that has any: steps of
-    /// Newton's method, which each find an order more. The crossing itself they leave where it is.
+    /// The distance to a crossing with its derivatives, for scalars that carry derivatives. Each step of Newton's
+    /// method adds one order of derivatives; the value does not change.
     [[nodiscard]] wide with_derivatives(double crossing, const Ray<T>& ray) const {
         if constexpr (std::is_floating_point_v<T>) {
             return crossing;
@@ -120,7 +120,7 @@ private:
         double w = two_pi * (double(o_.kx) * d.x + double(o_.ky) * d.y);
         const auto f = [&](double at) { return c + g * at - a * std::sin(p + w * at); };
         const auto slope = [&](double at) { return g - a * w * std::cos(p + w * at); };
-        if (f(t.from) < 0) // from below: turn the world over
+        if (f(t.from) < 0) // from below: flip the vertical axis
             c = -c, g = -g, p = p + pi<double>;
         if (w < 0) // sin(x) = sin(π − x)
             w = -w, p = pi<double> - p;
