@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: the light's `vector` and `flux_type` are not those that are summed up
+// expect: the light's `vector` and `flux_type` are not those of the sums
 #include "messages/renderer.hpp"
 
 int main() {

@@ -62,8 +62,8 @@ static_assert(Hit<SurfaceHit<V, AnyCurvature<Flat, ParametricCurvature<V>, Inter
 static_assert(Hit<SurfaceHit<foreign::Plain<double>, Flat>, foreign::Plain<double>>);
 
 // What is missing has a name of its own in the compiler's message.
-static_assert(!SaysHowItsNormalChanges<WithoutCurvature, V> && !Hit<WithoutCurvature, V>);
-static_assert(!SaysHowItsNormalChanges<CurvatureIsANumber, V> && !Hit<CurvatureIsANumber, V>);
+static_assert(!HasCurvature<WithoutCurvature, V> && !Hit<WithoutCurvature, V>);
+static_assert(!HasCurvature<CurvatureIsANumber, V> && !Hit<CurvatureIsANumber, V>);
 static_assert(!HasGeometricNormal<WithoutNormal, V> && !Hit<WithoutNormal, V>);
 static_assert(!HasDistance<WithoutDistance, V> && !Hit<WithoutDistance, V>);
 static_assert(!Hit<int, V> && !Hit<Least, int> && !Hit<Least, foreign::Plain<float>>);

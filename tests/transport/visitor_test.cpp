@@ -140,8 +140,8 @@ template <class Visitor, class S>
 
 } // namespace
 
-static_assert(TellsAllWays<Slab, D>);
-static_assert(!TellsAllWays<SheetScene<double>, D>); // for all one knows its scatter may draw numbers
+static_assert(ScattersDeterministically<Slab, D>);
+static_assert(!ScattersDeterministically<SheetScene<double>, D>); // for all one knows its scatter may draw numbers
 
 TEST_CASE("visitor: each flight has its ends, its flux and its tangents at the origin") {
     // Down onto a mirror at 45 degrees, which sends it along x to a wall.
@@ -318,7 +318,7 @@ TEST_CASE("visitor: a surface without any way absorbs and a weight that is no nu
 }
 
 TEST_CASE("visitor: a scene whose scatter says that it draws nothing has one way, which is all ways") {
-    static_assert(TellsAllWays<Mirrors, D>);
+    static_assert(ScattersDeterministically<Mirrors, D>);
     const auto above = tests::mirror_above_floor<double>(0.5);
     const Mirrors scene{above};
     const auto photon = collimated<double>({0, 0, 1}, {0.5, 0, -1});

@@ -29,10 +29,10 @@ struct ByChance : Plain {
 };
 } // namespace
 
-static_assert(ScattersAllWays<Known, V> && TellsAllWays<Known, V>);
+static_assert(ScattersAllWays<Known, V> && ScattersDeterministically<Known, V>);
 static_assert(ScattersAllWays<Listed, V>); // any list will do
-static_assert(!ScattersAllWays<OneWay, V> && TellsAllWays<OneWay, V>);
-static_assert(!TellsAllWays<Plain, V> && !TellsAllWays<ByChance, V>);
+static_assert(!ScattersAllWays<OneWay, V> && ScattersDeterministically<OneWay, V>);
+static_assert(!ScattersDeterministically<Plain, V> && !ScattersDeterministically<ByChance, V>);
 
 TEST_CASE("ways: none, one or two are kept in order, and more where there is room") {
     CHECK(Ways<Way>().size() == 0);
