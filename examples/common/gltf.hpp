@@ -37,7 +37,7 @@ struct MaterialDescription {
     float transmission = 0; ///< in [0, 1]
     float ior = 1.5f;       ///< >= 1, or 0: the specular-glossiness mode of KHR_materials_ior, Fresnel reflectance 1
     bool has_volume =
-        false; ///< KHR_materials_volume with a thickness: the mesh bounds a medium, otherwise it is a thin wall
+        false; ///< KHR_materials_volume with a thickness: the mesh bounds a medium, or else is a thin wall
     glm::vec3 attenuation_color{1}; ///< in [0, 1]: the share left after `attenuation_distance`
     float attenuation_distance = std::numeric_limits<float>::infinity(); ///< > 0, world units
     glm::vec3 emission{0}; ///< radiance: emissiveFactor times emissiveStrength

@@ -66,8 +66,7 @@ struct Material {
     /// Of a dielectric or window: the share of the entering light that is transmitted, 0 to 1. The rest falls on a
     /// diffuse layer with albedo `color`.
     double transmission = 1;
-    double coverage =
-        1; ///< 0 to 1: the share of the area that the surface covers; light passes straight through the rest
+    double coverage = 1; ///< 0 to 1: the share of the area that the surface covers; light passes through the rest
 
     [[nodiscard]] bool passes_light() const { return surface == Surface::dielectric || surface == Surface::window; }
     [[nodiscard]] bool is_specular() const {

@@ -18,11 +18,10 @@ using AnyExecutor = std::function<void(std::size_t, const std::function<void(std
 /// The directions from which light comes, as far as known.
 struct Guidance {
     DirectionGrid coarse{0}, fine{0};
-    std::vector<CellSet>
-        specular;              ///< for each tile, in the coarse grid: cells in which specular surfaces are seen, and
-                               ///< their neighbours
-    std::vector<CellSet> halo; ///< the same for cells with light, had the lights been larger than they are
-    std::vector<Guide> light;  ///< for each block, in the fine grid: cells with light, and those around
+    std::vector<CellSet> specular; ///< for each tile, in the coarse grid: cells in which specular surfaces are seen,
+                                   ///< and their neighbours
+    std::vector<CellSet> halo;     ///< the same for cells that would see light if the lights were larger
+    std::vector<Guide> light;      ///< for each block, in the fine grid: cells with light, and those around
 };
 
 struct PilotOptions {

@@ -61,8 +61,7 @@ concept HasLampPoints = requires(const L light, scalar_t<typename L::vector> u) 
 template <Vector3 V, Flux F>
 struct LampCharts {
     EmissionCharts<V, F> charts;
-    double power_without =
-        0; ///< of the lamps without charts: their domain is missing, or has kinks or four coordinates
+    double power_without = 0; ///< of the lamps without charts: their domain is missing or has kinks
 };
 
 /// The charts of a lamp or a set of lamps.
