@@ -46,13 +46,11 @@ struct Row {
     }
 };
 
-namespace detail {
 inline constexpr std::array<const char*, 5> result_names = {"dx/du", "dx/dv", "dw/du", "dw/dv", "determinant"};
 
-[[nodiscard]] inline bool all_finite(const Tangents& t) {
+[[nodiscard]] inline bool are_finite(const Tangents& t) {
     return is_finite(t[0]) && is_finite(t[1]) && is_finite(t[2]) && is_finite(t[3]);
 }
-} // namespace detail
 
 /// @param count  of well-posed cases that are wanted
 template <class T>
@@ -79,7 +77,7 @@ template <class T>
         row.emitted += account.emitted.flux;
         row.accounted += account.accounted_flux();
         if (outcome)
-            row.not_finite += !detail::all_finite(outcome->tangents);
+            row.not_finite += !are_finite(outcome->tangents);
         if (!well_posed) {
             ++row.ill_posed;
             row.lost_ill_posed += !outcome;
@@ -97,7 +95,7 @@ template <class T>
             const double unit = epsilon * (movement + size);
             const double units = error > oracle_error ? (error - oracle_error) / unit : 0;
             if (!(units <= m.units))
-                m.units = units, m.what = detail::result_names[what];
+                m.units = units, m.what = result_names[what];
             if (unit > 0)
                 m.oracle_units = (std::max)(m.oracle_units, oracle_error / unit);
         };
