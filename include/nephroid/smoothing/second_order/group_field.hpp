@@ -2,6 +2,7 @@
 /// @file  A field of footprints over one path group, fitted to the photons of the group.
 #pragma once
 
+#include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/smoothing/second_order/border_bounds.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
 #include "nephroid/smoothing/second_order/group_borders.hpp"
@@ -47,6 +48,9 @@ public:
             if (cell.has_frame)
                 fit_derivatives(cell, cells_, photons, options_, density_.share);
         });
+        is_contradicted_ = are_contradicted(cells_);
+        if (is_contradicted_)
+            return;
         if (options_.smoothing) {
             for (std::size_t i = 0; i < cells_.size(); ++i)
                 cells_[i].shape = Symmetric2::isotropic(square(*options_.smoothing));
@@ -58,6 +62,11 @@ public:
 
     /// @return  nothing where too few photons determine the field
     [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame) const {
+        if (is_contradicted_)
+            return FieldSample{.shape = Symmetric2::isotropic(square(options_.smoothing.value_or(default_smoothing))),
+                               .divergence = {},
+                               .second = {},
+                               .as_published = true};
         const GroupCell* here = cells_.cell_in(cells_.grid().cell_of(sample));
         if (here == nullptr || !here->is_resolved)
             return std::nullopt;
@@ -87,6 +96,19 @@ public:
     }
 
 private:
+    /// Whether photons contradict the map in so many cells that no cell is to be trusted: the footprints of those
+    /// between would reach into them. On smooth maps an eighth of the cells do, at poles and where a floor wraps.
+    [[nodiscard]] static bool are_contradicted(const GroupCells& cells) {
+        constexpr double most = 0.25;
+        std::size_t resolved = 0, contradicted = 0;
+        for (std::size_t i = 0; i < cells.size(); ++i)
+            if (cells[i].is_resolved) {
+                ++resolved;
+                contradicted += cells[i].is_contradicted;
+            }
+        return double(contradicted) > most * double(resolved);
+    }
+
     [[nodiscard]] static std::vector<std::array<double, 2>> coordinates_of(const PathSamples& all,
                                                                            const PathGroup& group) {
         std::vector<std::array<double, 2>> coordinates;
@@ -130,6 +152,7 @@ private:
     double aspect_; // of the domain: its length along the first coordinate over that along the second
     BorderBounds bounds_;
     GroupCells cells_;
+    bool is_contradicted_ = false; // then all photons are splatted as published
 };
 
 } // namespace nephroid::detail
