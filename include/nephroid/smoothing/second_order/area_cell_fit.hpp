@@ -59,12 +59,11 @@ inline void fit_derivatives(AreaCell& cell, std::size_t index, const AreaCells& 
             for (std::size_t axis = 0; axis < 4; ++axis)
                 away[axis] /= double(grid.counts()[axis]);
             fit.add(cell.frame.step_to(photons[i].frame),
-                    turned(photons[i].tangents, cell.frame.rotation_of(photons[i].frame)), photons[i].place, away,
-                    rest * rest);
+                    turned(photons[i].tangents, cell.frame.rotation_of(photons[i].frame)), away, rest * rest);
         }
     });
     double rough = 0;
-    if (!fit.solve(cell.map, cell.samples_by_step, rough, options.largest_miss))
+    if (!fit.solve(cell.map, cell.samples_by_step, rough))
         return;
     cell.log_q = log_bending(slice_bending(cell.map, options.photons, rough), options.bounds);
     cell.is_resolved = std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "nephroid/smoothing/second_order/area_cells.hpp"
-#include "nephroid/smoothing/second_order/area_landings.hpp"
 #include "nephroid/smoothing/second_order/emission_frame.hpp"
 #include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/vector/least_squares.hpp"
@@ -40,24 +39,20 @@ class AreaFit {
 public:
     /// @param at        step from the frame's photon
     /// @param tangents  aligned with those of the frame (`turned`)
-    /// @param place     where it landed
     /// @param sample    emission coordinates, relative to the point at which the derivatives are wanted
     /// @param weight    > 0
-    void add(const AreaStep& at, const TangentPair& tangents, const Space3& place, const AreaSample& sample,
-             double weight) {
+    void add(const AreaStep& at, const TangentPair& tangents, const AreaSample& sample, double weight) {
         const std::array<double, 5> row{1, at.position.x, at.position.y, at.direction.x, at.direction.y};
         for (std::size_t i = 0; i < 4; ++i)
             samples_[i].add(row, sample[i], weight);
-        photons_.push_back({at, tangents, place, weight});
+        photons_.push_back({at, tangents, weight});
     }
 
     /// @param result           gets J, H, and T (0 where there are too few photons)
     /// @param samples_by_step  gets the derivatives of the emission coordinates by σ
     /// @param rough            gets the `roughness` of the photons near the wanted point
-    /// @param largest_miss     FieldOptions::largest_miss
-    /// @return  whether the photons determine J, H, M and the wanted point's position, and do not contradict them
-    [[nodiscard]] bool solve(PathDerivatives& result, std::array<Plane2, 4>& samples_by_step, double& rough,
-                             double largest_miss) const {
+    /// @return  whether the photons determine J, H, M and the wanted point's position
+    [[nodiscard]] bool solve(PathDerivatives& result, std::array<Plane2, 4>& samples_by_step, double& rough) const {
         LeastSquares<4, double> wanted_point;
         for (std::size_t i = 0; i < 4; ++i) {
             std::array<double, 5> s;
@@ -78,7 +73,9 @@ public:
         std::vector<std::pair<Row, Row>> near_rows;
         std::vector<TangentResidual> near_photons;
         for (const Neighbour& photon : photons_) {
-            const auto [s, t] = along_and_across(photon.at, zero);
+            const Plane2 position = photon.at.position + Plane2{-zero[0], -zero[1]};
+            const Plane2 direction = photon.at.direction + Plane2{-zero[2], -zero[3]};
+            const Plane2 s = 0.5 * (position + direction), t = 0.5 * (position + -1.0 * direction);
             const double xx = 0.5 * s.x * s.x, xy = s.x * s.y, yy = 0.5 * s.y * s.y;
             const Row u{1, 0, s.x, s.y, 0, t.x, t.y, 0, 0, xx, xy, yy, 0},
                 v{0, 1, 0, s.x, s.y, 0, 0, t.x, t.y, 0, xx, xy, yy};
@@ -102,12 +99,7 @@ public:
             }
         }
         rough = roughness(near_photons);
-        AreaLandings landings;
-        for (const Neighbour& photon : photons_) {
-            const auto [s, t] = along_and_across(photon.at, zero);
-            landings.add(result, s, t, {t.x * x[5] + t.y * x[6], t.x * x[7] + t.y * x[8]}, photon.place, photon.weight);
-        }
-        return !landings.contradict(result, largest_miss);
+        return true;
     }
 
 private:
@@ -117,20 +109,8 @@ private:
     struct Neighbour {
         AreaStep at;
         TangentPair tangents;
-        Space3 place;
         double weight;
     };
-
-    struct SliceStep {
-        Plane2 along, across; ///< σ and τ
-    };
-
-    /// @param zero  the wanted point: position and direction from the frame's photon
-    [[nodiscard]] static SliceStep along_and_across(const AreaStep& at, const std::array<double, 4>& zero) {
-        const Plane2 position = at.position + Plane2{-zero[0], -zero[1]};
-        const Plane2 direction = at.direction + Plane2{-zero[2], -zero[3]};
-        return {0.5 * (position + direction), 0.5 * (position + -1.0 * direction)};
-    }
 
     std::array<LeastSquares<5, double>, 4> samples_;
     std::vector<Neighbour> photons_;

@@ -28,8 +28,6 @@ namespace nephroid::detail {
 /// Where the photons around a point of the emission domain landed.
 class Landings {
 public:
-    static constexpr double rounding = 2e-6; ///< of a place, if the renderer's scalar is a float
-
     /// @param at      displacement of the photon from the point, in the frame of the fit
     /// @param weight  > 0
     void add(Plane2 at, const Space3& place, double weight) { landings_.push_back({at, place, weight}); }
@@ -51,10 +49,11 @@ public:
             weights += landing.weight;
             largest = (std::max)({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         }
-        if (!(weights > 0))
+        if (!(weights > 0) || !std::isfinite(largest_part))
             return false;
         const Space3 middle = (1 / weights) * sum;
         const double stretch2 = 0.5 * (inner(map.first[0], map.first[0]) + inner(map.first[1], map.first[1]));
+        constexpr double rounding = 2e-6; // of a place, if the renderer's scalar is a float
         double missed = 0, distances = 0; // squared
         for (const Landing& landing : landings_) {
             const Space3 miss = landing.place - displacement_by(map, landing.at) - middle;
