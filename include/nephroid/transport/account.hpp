@@ -64,8 +64,8 @@ struct Statistics {
     std::uint64_t opaque_first = 0;   ///< photons whose first surface was neither a mirror nor glass
     std::uint64_t escaped_first = 0;  ///< photons that met no surface at all
     std::uint64_t bounded_shifts = 0; ///< of second-order splats, shortened
-    std::uint64_t splatted_as_published = 0; ///< by second order, which had nothing better: footprints of s = 8, where
-                                             ///< photons land
+    std::uint64_t splatted_as_published = 0; ///< by second order, which found nothing better: where they landed, with
+                                             ///< footprints of s = 8 or of the pass's own s
     std::uint64_t bounded_footprints = 0;    ///< made smaller by the excess policy, or larger by the collapse policy
 
     [[nodiscard]] const Tally& operator[](Fate fate) const { return fates[std::size_t(fate)]; }

@@ -283,7 +283,7 @@ TEST_CASE("second order: tangents beyond the first two are scaled by the footpri
     const SecondOrderFootprints<D> footprints(std::span<const TracedPhoton<D, double, 3>>(photons),
                                               {.smoothing = 6, .photons = 256}, executor);
     auto photon = photons[100];
-    CHECK(!footprints.apply(photon));
+    CHECK(!footprints.apply(photon).shortened);
     CHECK(photon.deposit->d_position[2].x == doctest::Approx(6 * 0.25).epsilon(1e-12));
     CHECK(photon.deposit->d_position[0].x == doctest::Approx(6 * photons[100].deposit->d_position[0].x).epsilon(1e-12));
 }
@@ -294,7 +294,7 @@ TEST_CASE("second order: photons outside the field get a fallback smoothing") {
                      given = footprints_of(known, {.smoothing = 11, .stratified = true, .photons = 1024});
     const auto check = [](const Footprints& footprints, MapPhoton photon, double smoothing) {
         const MapPhoton before = photon;
-        CHECK(!footprints.apply(photon));
+        CHECK(!footprints.apply(photon).shortened);
         CHECK(photon.deposit->position == before.deposit->position);
         for (std::size_t i = 0; i < 2; ++i)
             CHECK(photon.deposit->d_position[i] == smoothing * before.deposit->d_position[i]);
