@@ -48,9 +48,6 @@ public:
             if (cell.has_frame)
                 fit_derivatives(cell, cells_, photons, options_, density_.share);
         });
-        is_contradicted_ = are_contradicted(cells_);
-        if (is_contradicted_)
-            return;
         if (options_.smoothing) {
             for (std::size_t i = 0; i < cells_.size(); ++i)
                 cells_[i].shape = Symmetric2::isotropic(square(*options_.smoothing));
@@ -58,12 +55,13 @@ public:
         }
         find_borders(cells_, photons, options_.bounds.largest_radius);
         for_each_cell([&](GroupCell& cell) { choose_shape(cell); });
+        is_contradicted_ = are_shapes_contradicted();
     }
 
     /// @return  nothing where too few photons determine the field
     [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame) const {
         if (is_contradicted_)
-            return FieldSample{.shape = Symmetric2::isotropic(square(options_.smoothing.value_or(default_smoothing))),
+            return FieldSample{.shape = Symmetric2::isotropic(square(default_smoothing)),
                                .divergence = {},
                                .second = {},
                                .as_published = true};
@@ -96,15 +94,18 @@ public:
     }
 
 private:
-    /// Whether photons contradict the map in so many cells that no cell is to be trusted: the footprints of those
-    /// between would reach into them. On smooth maps an eighth of the cells do, at poles and where a floor wraps.
-    [[nodiscard]] static bool are_contradicted(const GroupCells& cells) {
+    /// Whether footprints larger than the published ones were chosen in many cells where photons contradict the map.
+    /// Then none of the group's is trusted, since those of the cells between reach into these. Smaller footprints are no
+    /// worse than the published ones where the map is wrong. On smooth maps an eighth of the cells are contradicted, at
+    /// poles and where a floor wraps.
+    [[nodiscard]] bool are_shapes_contradicted() const {
         constexpr double most = 0.25;
+        const double published = square(square(default_smoothing) * options_.scale); // det S
         std::size_t resolved = 0, contradicted = 0;
-        for (std::size_t i = 0; i < cells.size(); ++i)
-            if (cells[i].is_resolved) {
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            if (cells_[i].is_resolved) {
                 ++resolved;
-                contradicted += cells[i].is_contradicted;
+                contradicted += cells_[i].is_contradicted && cells_[i].shape.determinant() > published;
             }
         return double(contradicted) > most * double(resolved);
     }

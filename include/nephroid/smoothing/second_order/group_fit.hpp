@@ -59,7 +59,7 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
     cell.is_resolved = fit.solve(cell.map);
     if (!cell.is_resolved)
         return;
-    cell.is_contradicted = landings.contradict(cell.map, options.largest_miss);
+    cell.is_contradicted = !options.smoothing && landings.contradict(cell.map, options.largest_miss);
     for (TangentResidual& photon : here) {
         const auto fitted = tangents_at(cell.map, {photon.at[0], photon.at[1]});
         photon.residual = {photon.tangents[0] - fitted[0], photon.tangents[1] - fitted[1]};
