@@ -171,6 +171,10 @@ TEST_CASE("diagnose: what happens to caustic photons at their end") {
     CHECK(says(all_as(Fate::unseen), 0, "100% of the caustic photons fell where no eye path vertex sees them"));
     CHECK(says(all_as(Fate::collapsed), 0, "100% of the caustic photons had footprints without area"));
     CHECK(says(all_as(Fate::excessive), 0, "100% of the caustic photons had footprints without bounds"));
+    account.splatted_as_published = account.caustic_photons();
+    CHECK(says(diagnose(account), 0, "100% of the caustic photons were splatted as published"));
+    account.splatted_as_published /= 4;
+    CHECK(diagnose(account).empty());
 }
 
 TEST_CASE("diagnose: the worst comes first, and small shares have their decimals") {

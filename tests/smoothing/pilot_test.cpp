@@ -10,6 +10,7 @@
 
 #include "nephroid/caustics.hpp"
 #include "nephroid/emission/light/standard_lights.hpp"
+#include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/dual.hpp"
 
@@ -122,6 +123,7 @@ void check_same(const Statistics& a, const Statistics& b) {
     CHECK(a.specular_events == b.specular_events);
     CHECK(a.bounded_footprints == b.bounded_footprints);
     CHECK(a.bounded_shifts == b.bounded_shifts);
+    CHECK(a.splatted_as_published == b.splatted_as_published);
     for (std::size_t i = 0; i < fate_count; ++i) {
         CHECK(a.fates[i].photons == b.fates[i].photons);
         CHECK(a.fates[i].flux == doctest::Approx(b.fates[i].flux).epsilon(1e-12)); // the chunks' sums differ in order
@@ -383,6 +385,53 @@ TEST_CASE_TEMPLATE("second order: a light that also draws a wavelength still has
     const auto plain = placed(sun<V>()), coloured = placed(tests::ColouredSun<V>{sun<V>()});
     REQUIRE(plain.size() > 1000);
     CHECK(plain == coloured);
+}
+
+namespace {
+
+/// Water whose surface is made of flat strips, each tilted by its own angle.
+template <class T>
+struct FacetedWater : SheetScene<T> {
+    using V = Vec<T>;
+    [[nodiscard]] std::optional<SurfaceHit<V, Flat>> intersect(const V& o, const V& d, T t_min, T t_max) const {
+        auto hit = SheetScene<T>::intersect(o, d, t_min, t_max);
+        if (hit && hit->surface == 0) {
+            const T tilt = T(0.4) * std::sin(T(2.4) * std::floor(T(16) * hit->position.x));
+            hit->shading_normal = V(std::sin(tilt), T(0), std::cos(tilt));
+        }
+        return hit;
+    }
+};
+
+} // namespace
+
+// Each strip's light is an affine image of the lamp's, and tangents know no other. Where it falls says that the map is
+// none, and then the two methods are one.
+TEST_CASE_TEMPLATE("second order: facets give the published picture bit for bit, for any number of threads", T, float,
+                   double) {
+    using V = Vec<T>;
+    const FacetedWater<T> water{
+        {{{{0, 0, 1}, {0, 0, 1}, Event::refract, T(1), 1, T(1.33)}, {{0, 0, 0}, {0, 0, 1}, Event::deposit}}}};
+    const PhotonPass pass{.count = 6000};
+    const auto published = render<Published>(water, sun<V>(), pass);
+    ThreadExecutor threads(3);
+    for (const bool by_threads : {false, true}) {
+        const auto second =
+            by_threads ? render(water, sun<V>(), pass, HaltonSequence(1), threads) : render(water, sun<V>(), pass);
+        CHECK(second.irradiance == published.irradiance);
+        CHECK(second.account.splatted_as_published == second.account.caustic_photons());
+        CHECK(second.account.bounded_shifts == 0);
+    }
+    CHECK(published.account.splatted_as_published == 0);
+    const auto unchecked = render(water, sun<V>(), pass, HaltonSequence(1), SerialExecutor{},
+                                  Default{.order = {.largest_miss = std::numeric_limits<double>::infinity()}});
+    CHECK(unchecked.irradiance != published.irradiance);
+    CHECK(unchecked.account.splatted_as_published == 0);
+}
+
+TEST_CASE("second order: on smooth glass next to nothing is splatted as published") {
+    const auto smooth = render(ball<Vec<double>>(), sun<Vec<double>>(), {.count = 5000});
+    CHECK(double(smooth.account.splatted_as_published) <= 0.05 * double(smooth.account.caustic_photons()));
 }
 
 } // namespace nephroid::tests::pilot_test

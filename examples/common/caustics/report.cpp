@@ -71,6 +71,8 @@ void print_table(std::ostream& out, const Options& options, const Report& report
         line(out, "footprints bounded", grouped(statistics.bounded_footprints));
     if (statistics.bounded_shifts > 0)
         line(out, "shifts bounded", grouped(statistics.bounded_shifts));
+    if (statistics.splatted_as_published > 0)
+        line(out, "as published", grouped(statistics.splatted_as_published));
     if (statistics.corrected_normals > 0)
         line(out, "normals corrected", grouped(statistics.corrected_normals));
 
@@ -127,6 +129,7 @@ std::string json_text(const Options& options, const Report& report) {
            {"corrected normals", std::to_string(statistics.corrected_normals)},
            {"bounded footprints", std::to_string(statistics.bounded_footprints)},
            {"bounded shifts", std::to_string(statistics.bounded_shifts)},
+           {"splatted as published", std::to_string(statistics.splatted_as_published)},
            {"flux emitted", json_number(statistics.emitted.flux)},
            {"flux accounted", json_number(statistics.accounted_flux())},
            {"fates", json_object(fates, "  ")},

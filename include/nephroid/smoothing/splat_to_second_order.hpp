@@ -22,6 +22,11 @@ template <class Policies, class L>
 inline constexpr bool is_second_order = Light<L>&& decltype(Policies::order)::uses_neighbours&&
     std::same_as<decltype(Policies::shape), DifferentialFootprint>;
 
+inline void count(const AppliedFootprint& applied, Statistics& account) {
+    account.bounded_shifts += applied.shortened;
+    account.splatted_as_published += applied.as_published;
+}
+
 /// Shifts a photon, gives it the footprint or the pieces chosen, and prepares its splats.
 template <class Footprints, class Photon, class Splatter>
 void prepare_shifted(const Footprints& footprints, Photon& photon, const Splatter& splatter,
@@ -29,11 +34,11 @@ void prepare_shifted(const Footprints& footprints, Photon& photon, const Splatte
     const auto& policies = splatter.policies();
     if constexpr (std::derived_from<std::remove_cvref_t<decltype(policies.order)>, CurvedFootprints>) {
         std::array<Space3, 3> second;
-        account.bounded_shifts += footprints.apply(photon, &second);
+        count(footprints.apply(photon, &second), account);
         const double moment = std::remove_cvref_t<decltype(policies.kernel)>::second_moment;
         splatter.prepare(curved(*photon.deposit, second, policies.order, moment).pieces(), chunk, account);
     } else {
-        account.bounded_shifts += footprints.apply(photon);
+        count(footprints.apply(photon), account);
         splatter.prepare(*photon.deposit, chunk, account);
     }
 }

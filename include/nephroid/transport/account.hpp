@@ -64,7 +64,9 @@ struct Statistics {
     std::uint64_t opaque_first = 0;   ///< photons whose first surface was neither a mirror nor glass
     std::uint64_t escaped_first = 0;  ///< photons that met no surface at all
     std::uint64_t bounded_shifts = 0; ///< shifts of second-order splats that were shortened
-    std::uint64_t bounded_footprints = 0; ///< footprints that the excess or the collapse policy changed
+    std::uint64_t splatted_as_published = 0; ///< by second order, which found nothing better: where they landed, with
+                                             ///< footprints of s = 8 or of the pass's own s
+    std::uint64_t bounded_footprints = 0;    ///< footprints that the excess or the collapse policy changed
 
     [[nodiscard]] const Tally& operator[](Fate fate) const { return fates[std::size_t(fate)]; }
 
@@ -103,6 +105,7 @@ struct Statistics {
         opaque_first += other.opaque_first;
         escaped_first += other.escaped_first;
         bounded_shifts += other.bounded_shifts;
+        splatted_as_published += other.splatted_as_published;
         bounded_footprints += other.bounded_footprints;
         return *this;
     }

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 namespace nephroid::tests::group_field_test {
 
@@ -134,6 +135,42 @@ TEST_CASE("group field: any number of threads makes the same field bit for bit")
             }
         }
     }
+}
+
+// A mirror in strips, as broad as 9 lattice steps: within each the map is the identity's, and every strip's light falls
+// half as far from the last one's as it should. No tangent tells.
+TEST_CASE("group field: flat facets are splatted as published, and a few of them on a smooth surface are not noticed") {
+    const auto strips_until = [](double end) {
+        return [end](double u, double v) {
+            const double strip = std::floor(u * side / 9) * 9 / side;
+            return Landing{{u - (u < end ? 0.5 * strip : 0.5 * end), v, 0}, {1, 0, 0}, {0, 1, 0}};
+        };
+    };
+    FieldOptions options = stratified();
+    options.largest_miss = SecondOrder{}.largest_miss;
+    const auto check = [&](double end, bool as_published) {
+        const auto map = strips_until(end);
+        const Field field = field_of(map, options);
+        for (const double u : {0.03, 0.3, 0.52, 0.97}) {
+            const auto here = at(field, map, u, 0.4);
+            REQUIRE(here);
+            CHECK(here->as_published == as_published);
+            if (!as_published)
+                continue;
+            check_close(here->shape, Symmetric2::isotropic(square(default_smoothing)), 0);
+            CHECK(inner(here->divergence, here->divergence) == 0);
+            for (const Space3& h : here->second)
+                CHECK(inner(h, h) == 0);
+        }
+    };
+    check(1, true);
+    check(0, false);
+    check(0.15, false);
+    options.smoothing = 5; // is kept
+    check_close(at(field_of(strips_until(1), options), strips_until(1), 0.5, 0.5)->shape, Symmetric2::isotropic(25), 0);
+    options.largest_miss = std::numeric_limits<double>::infinity();
+    options.smoothing.reset();
+    check(1, false);
 }
 
 } // namespace nephroid::tests::group_field_test

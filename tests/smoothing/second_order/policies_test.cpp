@@ -42,8 +42,9 @@ static_assert(std::is_empty_v<FirstOrder>);
 TEST_CASE("second-order policy: defaults and infinite upper bounds are accepted") {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     CHECK(complaint_about({}) == "none");
-    CHECK(complaint_about({.bounds = {.largest_radius = infinity, .stretch = infinity}, .largest_shift = infinity}) ==
-          "none");
+    CHECK(complaint_about({.bounds = {.largest_radius = infinity, .stretch = infinity},
+                           .largest_shift = infinity,
+                           .largest_miss = infinity}) == "none");
     CHECK(complaint_about({.bounds = {.least = 1, .least_radius = 3, .largest_radius = 3, .stretch = 1},
                            .largest_shift = 0,
                            .pilot = 1}) == "none");
@@ -66,6 +67,8 @@ TEST_CASE("second-order policy: the message names the option that makes no sense
     check({.bounds = {.stretch = 0.5}}, "bounds.stretch is 0.5");
     check({.largest_shift = -0.1}, "largest_shift is -0.1");
     check({.largest_shift = nan}, "largest_shift is nan");
+    check({.largest_miss = -0.1}, "largest_miss is -0.1");
+    check({.largest_miss = nan}, "largest_miss is nan");
     check({.pilot = 0}, "pilot is 0");
 }
 

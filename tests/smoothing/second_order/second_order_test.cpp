@@ -87,7 +87,7 @@ template <class Order>
         for (double v = 0.5 - std::ceil(reach * steps) / steps + 0.5 / steps; v < 0.5 + reach; v += 1 / steps) {
             MapPhoton photon = photon_at(one_axis, {u, v}, photons);
             if constexpr (std::same_as<Order, SecondOrder>) {
-                if (footprints.apply(photon))
+                if (footprints.apply(photon).shortened)
                     return std::numeric_limits<double>::infinity(); // a shift that is shortened cancels nothing
             } else {
                 for (D& tangent : photon.deposit->d_position)
@@ -184,7 +184,7 @@ TEST_CASE("second order: a footprint has the shape and the shift that the field 
         const auto said = field.at(photon.sample.at, photon.frame, photon.signature);
         REQUIRE(said);
         MapPhoton splat = photon;
-        if (footprints.apply(splat))
+        if (footprints.apply(splat).shortened)
             continue; // shortened
         ++checked;
         const auto j = half_tangents(*photon.deposit);
@@ -227,9 +227,9 @@ TEST_CASE("second order: shifts beyond the limit are shortened and reported") {
     const Footprints free = with(1e9), bound = with(1e-3), none = with(0);
     for (const MapPhoton& photon : photons) {
         MapPhoton a = photon, b = photon, c = photon;
-        CHECK(!free.apply(a));
-        CHECK(bound.apply(b));
-        CHECK(none.apply(c));
+        CHECK(!free.apply(a).shortened);
+        CHECK(bound.apply(b).shortened);
+        CHECK(none.apply(c).shortened);
         const D before = photon.deposit->position, far_shift = a.deposit->position - before,
                 short_shift = b.deposit->position - before;
         // Semi-diameters along the columns of a triangular root of S: for S = s² 1 along the tangents.
@@ -283,7 +283,7 @@ TEST_CASE("second order: tangents beyond the first two are scaled by the footpri
     const SecondOrderFootprints<D> footprints(std::span<const TracedPhoton<D, double, 3>>(photons),
                                               {.smoothing = 6, .photons = 256}, executor);
     auto photon = photons[100];
-    CHECK(!footprints.apply(photon));
+    CHECK(!footprints.apply(photon).shortened);
     CHECK(photon.deposit->d_position[2].x == doctest::Approx(6 * 0.25).epsilon(1e-12));
     CHECK(photon.deposit->d_position[0].x == doctest::Approx(6 * photons[100].deposit->d_position[0].x).epsilon(1e-12));
 }
@@ -294,7 +294,7 @@ TEST_CASE("second order: photons outside the field get a fallback smoothing") {
                      given = footprints_of(known, {.smoothing = 11, .stratified = true, .photons = 1024});
     const auto check = [](const Footprints& footprints, MapPhoton photon, double smoothing) {
         const MapPhoton before = photon;
-        CHECK(!footprints.apply(photon));
+        CHECK(!footprints.apply(photon).shortened);
         CHECK(photon.deposit->position == before.deposit->position);
         for (std::size_t i = 0; i < 2; ++i)
             CHECK(photon.deposit->d_position[i] == smoothing * before.deposit->d_position[i]);

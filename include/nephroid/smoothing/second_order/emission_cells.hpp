@@ -18,6 +18,12 @@
 
 namespace nephroid::detail {
 
+template <Vector3 V>
+[[nodiscard]] Space3 space3(const V& v) {
+    using t = vector_traits<V>;
+    return {double(t::x(v)), double(t::y(v)), double(t::z(v))};
+}
+
 /// J: the halves of a deposit's first two tangents, which are its derivatives by the units of the emission frame.
 template <Vector3 V, Flux F, std::size_t N>
 [[nodiscard]] std::array<Space3, 2> half_tangents(const Deposit<V, F, N>& deposit) {
@@ -35,6 +41,7 @@ struct PathSample {
     std::uint32_t signature = 0;      ///< of its path (PathSignature)
     bool has_landed = false;          ///< whether it reached a surface that receives it
     std::array<Space3, 2> tangents{}; ///< J, if it has landed
+    Space3 place{};                   ///< where, if it has landed
 };
 
 /// A photon's sample of the map, and the deposit to splat.
@@ -47,9 +54,11 @@ struct TracedPhoton : PathSample {
     TracedPhoton() = default;
     TracedPhoton(const EmissionSample& drawn, const EmissionFrame& emitted, std::uint32_t path,
                  const std::optional<Deposit<V, F, N>>& landed)
-        : PathSample{drawn, emitted, path, landed.has_value(), {}}, deposit(landed) {
-        if (landed)
+        : PathSample{drawn, emitted, path, landed.has_value(), {}, {}}, deposit(landed) {
+        if (landed) {
             tangents = half_tangents(*landed);
+            place = space3(landed->position);
+        }
     }
 };
 

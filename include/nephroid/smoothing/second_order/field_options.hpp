@@ -7,6 +7,7 @@
 #include "nephroid/vector/plane.hpp"
 
 #include <array>
+#include <limits>
 #include <optional>
 
 namespace nephroid::detail {
@@ -19,6 +20,7 @@ struct FieldOptions {
     double scale = 1;                  ///< factor of S: the biweight's second moment over the kernel's own
     double photons = 0;                ///< emitted into this domain by the whole pass, not only by the pilot
     SmoothingBounds bounds{};
+    double largest_miss = std::numeric_limits<double>::infinity(); ///< SecondOrder::largest_miss
 };
 
 /// The value of a field for one photon, in its own emission frame.
@@ -26,6 +28,7 @@ struct FieldSample {
     Symmetric2 shape;             ///< S, the shape of the footprint
     Plane2 divergence;            ///< ∂_a S_ab
     std::array<Space3, 3> second; ///< H, the second derivatives of the map
+    bool as_published = false;    ///< whether photons contradict the map, so that they are splatted where they land
 };
 
 } // namespace nephroid::detail

@@ -30,6 +30,7 @@ struct GroupCell {
     Symmetric2 log_q{}, shape{};
     bool has_frame = false;
     bool is_resolved = false;       ///< whether the photons determined the derivatives
+    bool is_contradicted = false;   ///< whether photons landed elsewhere than the derivatives say
     bool is_next_to_border = false; ///< whether a border lies within the cell
     double border_distance = std::numeric_limits<double>::infinity(); ///< from the middle, in the frame's units;
                                                                       ///< negative beyond the border

@@ -2,6 +2,7 @@
 /// @file  A field of footprints over one path group, fitted to the photons of the group.
 #pragma once
 
+#include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/smoothing/second_order/border_bounds.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
 #include "nephroid/smoothing/second_order/group_borders.hpp"
@@ -54,10 +55,16 @@ public:
         }
         find_borders(cells_, photons, options_.bounds.largest_radius);
         for_each_cell([&](GroupCell& cell) { choose_shape(cell); });
+        is_contradicted_ = are_shapes_contradicted();
     }
 
     /// @return  nothing where too few photons determine the field
     [[nodiscard]] std::optional<FieldSample> at(const std::array<double, 2>& sample, const EmissionFrame& frame) const {
+        if (is_contradicted_)
+            return FieldSample{.shape = Symmetric2::isotropic(square(default_smoothing)),
+                               .divergence = {},
+                               .second = {},
+                               .as_published = true};
         const GroupCell* here = cells_.cell_in(cells_.grid().cell_of(sample));
         if (here == nullptr || !here->is_resolved)
             return std::nullopt;
@@ -87,6 +94,22 @@ public:
     }
 
 private:
+    /// Whether footprints larger than the published ones were chosen in many cells where photons contradict the map.
+    /// Then none of the group's is trusted, since those of the cells between reach into these. Smaller footprints are no
+    /// worse than the published ones where the map is wrong. On smooth maps an eighth of the cells are contradicted, at
+    /// poles and where a floor wraps.
+    [[nodiscard]] bool are_shapes_contradicted() const {
+        constexpr double most = 0.25;
+        const double published = square(square(default_smoothing) * options_.scale); // det S
+        std::size_t resolved = 0, contradicted = 0;
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            if (cells_[i].is_resolved) {
+                ++resolved;
+                contradicted += cells_[i].is_contradicted && cells_[i].shape.determinant() > published;
+            }
+        return double(contradicted) > most * double(resolved);
+    }
+
     [[nodiscard]] static std::vector<std::array<double, 2>> coordinates_of(const PathSamples& all,
                                                                            const PathGroup& group) {
         std::vector<std::array<double, 2>> coordinates;
@@ -130,6 +153,7 @@ private:
     double aspect_; // of the domain: its length along the first coordinate over that along the second
     BorderBounds bounds_;
     GroupCells cells_;
+    bool is_contradicted_ = false; // then all photons are splatted as published
 };
 
 } // namespace nephroid::detail

@@ -5,6 +5,7 @@
 #include "nephroid/smoothing/second_order/bending.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
 #include "nephroid/smoothing/second_order/group_cells.hpp"
+#include "nephroid/smoothing/second_order/landings.hpp"
 #include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
 
@@ -27,6 +28,7 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
     const double cell_area = std::abs(cell.to_frame.determinant()) / double(grid.size());
     const double reach2 = 1.44 * cell_area; // 1.2 cells
     std::vector<TangentResidual> here;
+    Landings landings;
     PathFit fit;
     cells.for_each_around(cell, [&](const GroupCell& other, double) {
         for (const std::uint32_t i : grid.photons(other.square)) {
@@ -49,6 +51,7 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
             // dominate the fit.
             const double size2 = inner(by_axes[0], by_axes[0]) + inner(by_axes[1], by_axes[1]);
             fit.add(at, by_axes, rest * rest * (cell.size2 > 0 ? cell.size2 / (cell.size2 + size2) : 0.5));
+            landings.add(at, photon.place, rest * rest);
             if (&other == &cell)
                 here.push_back({{at.x, at.y, 0, 0}, by_axes, {}});
         }
@@ -56,6 +59,7 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
     cell.is_resolved = fit.solve(cell.map);
     if (!cell.is_resolved)
         return;
+    cell.is_contradicted = !options.smoothing && landings.contradict(cell.map, options.largest_miss);
     for (TangentResidual& photon : here) {
         const auto fitted = tangents_at(cell.map, {photon.at[0], photon.at[1]});
         photon.residual = {photon.tangents[0] - fitted[0], photon.tangents[1] - fitted[1]};

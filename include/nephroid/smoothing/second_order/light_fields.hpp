@@ -91,7 +91,8 @@ private:
                                  .repeats = options.policy.domain_repeats,
                                  .scale = 0.125 / options.second_moment,
                                  .photons = emitted,
-                                 .bounds = bounds_for(options.policy.bounds, emitted)};
+                                 .bounds = bounds_for(options.policy.bounds, emitted),
+                                 .largest_miss = options.policy.largest_miss};
         if constexpr (domains.two)
             if (photons[0].sample.coordinates == 2)
                 fields_.push_back(FootprintField(photons, field, run));

@@ -36,9 +36,12 @@ struct SecondOrder {
     static constexpr bool uses_neighbours = true;
     SmoothingBounds bounds{};
     double largest_shift =
-        0.125; ///< over the longer half tangent of the new footprint; longer shifts are shortened and
-               ///< counted (`Statistics::bounded_shifts`). The part of the shift due to footprints
-               ///< that change is limited to a quarter of the footprint as well
+        0.125;                 ///< over the longer half tangent of the new footprint; longer shifts are shortened and
+                               ///< counted (`Statistics::bounded_shifts`). The part of the shift due to footprints
+                               ///< that change is limited to a quarter of the footprint as well
+    double largest_miss = 0.1; ///< how far neighbours may land from where the fitted tangents say, over how far apart
+                               ///< they land. A path on which they often miss by more, on facets say, is splatted as
+                               ///< published and counted (`Statistics::splatted_as_published`). Infinity: none is
     std::uint64_t pilot = 1u << 16; ///< how many of the pass's first photons the footprints are chosen from, >= 1
     bool domain_repeats = false; ///< whether the scene repeats over the light's patch (a tile of endless water, say),
                                  ///< so that opposite borders of the patch are neighbours; has no effect on area lights
@@ -74,6 +77,7 @@ NEPHROID_NOINLINE inline void check(const SecondOrder& order, const char* caller
             "it must be at least bounds.least_radius");
     require(bounds.stretch >= 1, "bounds.stretch", bounds.stretch, "it must be at least 1");
     require(order.largest_shift >= 0, "largest_shift", order.largest_shift, "it must not be negative");
+    require(order.largest_miss >= 0, "largest_miss", order.largest_miss, "it must not be negative");
     require(order.pilot >= 1, "pilot", double(order.pilot), "it must be at least 1");
 }
 

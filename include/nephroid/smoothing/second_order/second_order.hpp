@@ -19,6 +19,12 @@
 
 namespace nephroid::detail {
 
+/// What became of a photon's footprint.
+struct AppliedFootprint {
+    bool shortened = false;    ///< whether its shift was
+    bool as_published = false; ///< whether its neighbours did not say enough, so that it is splatted to first order
+};
+
 /// Chooses the footprints of a pass's photons.
 ///
 /// @tparam domains  the kinds of domains that the lights may have: only the code for these is compiled
@@ -46,9 +52,8 @@ public:
     ///
     /// @param photon  emitted with smoothing 1; its deposit must not be empty
     /// @param second  if not null, gets the map's second derivatives (`shift_deposit`); 0 where they are not known
-    /// @return  whether the shift was shortened
     template <Flux F, std::size_t N>
-    bool apply(TracedPhoton<V, F, N>& photon, std::array<Space3, 3>* second = nullptr) const {
+    AppliedFootprint apply(TracedPhoton<V, F, N>& photon, std::array<Space3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
         const std::optional<FieldSample> found = photon.frame.is_regular() ? fields_.at(photon) : std::nullopt;
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
@@ -58,10 +63,11 @@ public:
             scale_tangents(deposit, T(options_.smoothing.value_or(fallback)));
             if (second != nullptr)
                 *second = {};
-            return false;
+            return {.as_published = has_neighbours(photon.sample) && photon.sample.coordinates != 2};
         }
-        return shift_deposit(deposit, *found, options_.second_moment,
-                             {options_.policy.largest_shift, options_.largest_reach}, second);
+        return {.shortened = shift_deposit(deposit, *found, options_.second_moment,
+                                           {options_.policy.largest_shift, options_.largest_reach}, second),
+                .as_published = found->as_published};
     }
 
 private:

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "nephroid/execution/task_runner.hpp"
-#include "nephroid/smoothing/second_order/path_derivatives.hpp"
+#include "nephroid/smoothing/second_order/emission_cells.hpp"
 #include "nephroid/tree/point_tree.hpp"
 
 #include <algorithm>
@@ -23,12 +23,6 @@ namespace nephroid::detail {
 struct PlaceOnSurface {
     Space3 position, normal;
 };
-
-template <Vector3 V>
-[[nodiscard]] Space3 space3(const V& v) {
-    using t = vector_traits<V>;
-    return {double(t::x(v)), double(t::y(v)), double(t::z(v))};
-}
 
 /// Whether two points may lie on one smooth surface. Between points of a curve, one lies off the other's tangent by
 /// half of the angle times the distance: twice that, and a tenth for bumps and facets, are let pass.

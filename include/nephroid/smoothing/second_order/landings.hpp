@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+/// @file  Checks a map that was fitted to tangents against the places where photons landed.
+///
+/// Tangents say nothing of jumps: on a flat facet of a mesh they hardly change, yet across its edge the light goes
+/// elsewhere. Places do. Footprints rest on the fitted map, so that where places contradict it none is chosen from it
+/// [include/nephroid/README.md, "Footprints from neighbours"].
+#pragma once
+
+#include "nephroid/smoothing/second_order/path_derivatives.hpp"
+#include "nephroid/vector/scalar.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace nephroid::detail {
+
+/// F(δ) − F(0) by the derivatives at 0.
+[[nodiscard]] inline Space3 displacement_by(const PathDerivatives& map, Plane2 at) {
+    const double x = at.x, y = at.y;
+    const auto& [h_uu, h_uv, h_vv] = map.second;
+    const auto& [t_uuu, t_uuv, t_uvv, t_vvv] = map.third;
+    return (x * map.first[0] + y * map.first[1]) + 0.5 * ((x * x) * h_uu + ((2 * x * y) * h_uv + (y * y) * h_vv)) +
+           (1.0 / 6) *
+               (((x * x * x) * t_uuu + (3 * x * x * y) * t_uuv) + ((3 * x * y * y) * t_uvv + (y * y * y) * t_vvv));
+}
+
+/// Where the photons around a point of the emission domain landed.
+class Landings {
+public:
+    /// @param at      displacement of the photon from the point, in the frame of the fit
+    /// @param weight  > 0
+    void add(Plane2 at, const Space3& place, double weight) { landings_.push_back({at, place, weight}); }
+
+    /// Whether the photons landed elsewhere than the map says.
+    ///
+    /// Only the point's own place is fitted to theirs. They contradict the map if what is left of their distances from
+    /// it is more than a part of them. Distances are taken from the tangents' length, not along the tangents, because
+    /// at a fold the map takes some steps nowhere.
+    ///
+    /// @param map           derivatives at the point, fitted to tangents
+    /// @param largest_part  of the root mean square distance, >= 0
+    [[nodiscard]] bool contradict(const PathDerivatives& map, double largest_part) const {
+        Space3 sum{};
+        double weights = 0, largest = 0;
+        for (const Landing& landing : landings_) {
+            const Space3& p = landing.place;
+            sum += landing.weight * (p - displacement_by(map, landing.at));
+            weights += landing.weight;
+            largest = (std::max)({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        }
+        if (!(weights > 0) || !std::isfinite(largest_part))
+            return false;
+        const Space3 middle = (1 / weights) * sum;
+        const double stretch2 = 0.5 * (inner(map.first[0], map.first[0]) + inner(map.first[1], map.first[1]));
+        constexpr double rounding = 2e-6; // of a place, if the renderer's scalar is a float
+        double missed = 0, distances = 0; // squared
+        for (const Landing& landing : landings_) {
+            const Space3 miss = landing.place - displacement_by(map, landing.at) - middle;
+            missed += landing.weight * inner(miss, miss);
+            distances += landing.weight * stretch2 * inner(landing.at, landing.at);
+        }
+        return !(missed <= square(largest_part) * distances + weights * square(rounding * largest));
+    }
+
+private:
+    struct Landing {
+        Plane2 at;
+        Space3 place;
+        double weight;
+    };
+    std::vector<Landing> landings_;
+};
+
+} // namespace nephroid::detail
