@@ -122,7 +122,7 @@ private:
     [[nodiscard]] std::size_t search_count() const { return (target_ ? 2 : 1) * std::size_t(options_->neighbours + 1); }
 
     /// Calls visit(neighbourhood, leaf, slot, neighbours) for the photons that have this turn, with neighbours that
-    /// `visit` may reorder, and takes down where it moves them; keeps the radii.
+    /// `visit` may reorder, and notes where it moves them and their radii.
     template <class E, class Visit>
     void for_each_neighbourhood(std::uint32_t turn, E& executor, const Visit& visit) {
         const std::size_t pushing = options_->neighbours + 1;
@@ -141,7 +141,7 @@ private:
         for_each_leaf<Neighbourhood<Cloud>>(cloud_->tree(), executor, move_leaf, turn, turns);
     }
 
-    /// After a turn `next_` has all positions but those of before it: brings these up to date.
+    /// Copies where this turn's photons went to `next_`, which the tree exchanged for the positions before the turn.
     template <class E>
     void keep_moves(std::uint32_t turn, E& executor) {
         const PointTree<V>& tree = cloud_->tree();

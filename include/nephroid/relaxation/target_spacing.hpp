@@ -41,7 +41,8 @@ public:
     /// between them over that at the first. For densities ρ it is sqrt(ρ₂/ρ₁).
     [[nodiscard]] T factor(std::size_t first, std::size_t second) const {
         const Pilot &a = pilots_[first], &b = pilots_[second];
-        return T(1) + a.trust * b.trust * (std::clamp(b.root_density / a.root_density, T(1) / most, most) - T(1));
+        return T(1) + a.trust * b.trust *
+                          (std::clamp(b.root_density / a.root_density, T(1) / largest_ratio, largest_ratio) - T(1));
     }
 
 private:
@@ -50,7 +51,8 @@ private:
         T trust;        ///< 0 at a feature, 1 away from any
     };
 
-    static constexpr T most = T(8); ///< ratio of the roots of two neighbours' densities: beyond, one pilot is wrong
+    /// Of the roots of two neighbours' densities: where it is larger, one of the pilots is wrong.
+    static constexpr T largest_ratio = T(8);
     static constexpr std::size_t fewest = 16; ///< photons that a pilot needs
     /// The fraction of held photons in a neighbourhood, by weight, from which on its pilot is not trusted at all. A
     /// straight feature through the middle, in a band of 1.5 mean distances to each side, makes it 0.23, which leaves a
