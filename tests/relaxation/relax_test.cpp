@@ -654,7 +654,7 @@ TEST_CASE("relaxation: a map that keeps its density reports the pilot and the ne
     }
     report = run(halton, RelaxationOptions::keeping_density());
     CHECK(report.stratified);
-    CHECK(report.pilot_neighbours == 75);
+    CHECK(report.pilot_neighbours == 150);
     CHECK(report.estimate_neighbours == 20);
     CHECK(run(photons, {}).pilot_neighbours == 0);
     auto few = random_floor(100, 111);

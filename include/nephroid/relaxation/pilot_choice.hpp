@@ -72,7 +72,7 @@ struct PilotEvidence {
         // The neighbours of a stratified photon keep away from it, so without itself the density there comes out too
         // low, the more so the smaller the disc: the comparison would favour large discs.
         if (seen >= fewest && nearness / seen * 16 > stratified_from)
-            return {75, true, false};
+            return {150, true, false};
         if (judged < fewest)
             return {150, false, false};
         const auto end = log_density.begin() + std::ptrdiff_t(usable);
