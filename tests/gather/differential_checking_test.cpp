@@ -98,7 +98,7 @@ struct EvenLight {
 
 } // namespace
 
-// 2.4% are cut, so 4.8 of 200, which are rarely more than 12, and the rms error grows by 7%. A rule that takes the
+// 2.1% are cut, so 4.2 of 200, which are rarely more than 12, and the rms error grows by 7%. A rule that takes the
 // check where a trend began takes an extreme, and of a small count: with 3 deviations it cuts 1.4% and doubles the rms.
 TEST_CASE("differential checking: even light with photons at random is hardly ever cut and its error hardly grows") {
     const EvenLight even(200, 4000, 0, 136);

@@ -647,14 +647,15 @@ TEST_CASE("relaxation: a map that keeps its density reports the pilot and the ne
     auto report = run(photons, RelaxationOptions::keeping_density());
     CHECK_FALSE(report.stratified);
     CHECK(report.pilot_neighbours >= 300); // nothing to see: the more the better
-    CHECK(report.estimate_neighbours >= 20);
+    CHECK(report.estimate_neighbours == std::clamp(report.pilot_neighbours / 30, 20u, 40u));
     for (std::size_t i = 0; i < halton.size(); ++i) { // a lattice: (i/n, i times the golden ratio)
         const double y = double(i) * 0.6180339887498949;
         halton[i].position = {(double(i) + 0.5) / 8000, y - std::floor(y), 0};
     }
     report = run(halton, RelaxationOptions::keeping_density());
     CHECK(report.stratified);
-    CHECK(report.pilot_neighbours == 75);
+    CHECK(report.pilot_neighbours == 150);
+    CHECK(report.estimate_neighbours == 20);
     CHECK(run(photons, {}).pilot_neighbours == 0);
     auto few = random_floor(100, 111);
     report = run(few, RelaxationOptions::keeping_density());

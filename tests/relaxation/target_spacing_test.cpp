@@ -29,16 +29,33 @@ template <class Cloud>
     return slots;
 }
 
-/// sqrt(Σ (1 − d²/R²)/R²) over the nearest, a photon itself among them, from all distances.
-[[nodiscard]] double root_density(const std::vector<Stored>& photons, std::size_t photon, std::size_t count) {
-    std::vector<double> distance2;
-    for (const Stored& other : photons)
-        distance2.push_back(length2(glm::dvec3(other.position - photons[photon].position)));
-    std::sort(distance2.begin(), distance2.end());
+/// Squared distances and indices of the nearest, a photon itself among them, from all distances.
+[[nodiscard]] std::vector<std::pair<double, std::size_t>> disc(const std::vector<Stored>& photons, std::size_t photon,
+                                                               std::size_t count) {
+    std::vector<std::pair<double, std::size_t>> nearest;
+    for (std::size_t i = 0; i < photons.size(); ++i)
+        nearest.emplace_back(length2(glm::dvec3(photons[i].position - photons[photon].position)), i);
+    std::sort(nearest.begin(), nearest.end());
+    nearest.resize(count);
+    return nearest;
+}
+
+/// Σ (1 − d²/R²)/R²
+[[nodiscard]] double density(const std::vector<Stored>& photons, std::size_t photon, std::size_t count) {
+    const auto nearest = disc(photons, photon, count);
     double sum = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        sum += (1 - distance2[i] / distance2[count - 1]) / distance2[count - 1];
-    return std::sqrt(sum);
+    for (const auto& [distance2, other] : nearest)
+        sum += (1 - distance2 / nearest.back().first) / nearest.back().first;
+    return sum;
+}
+
+/// The root of the density times Σ (1 − d²/R²)/density of each/R²: the mean of what the pilot expects of all.
+[[nodiscard]] double corrected_root_density(const std::vector<Stored>& photons, std::size_t photon, std::size_t count) {
+    const auto nearest = disc(photons, photon, count);
+    double ratio = 0;
+    for (const auto& [distance2, other] : nearest)
+        ratio += (1 - distance2 / nearest.back().first) / nearest.back().first / density(photons, other, count);
+    return std::sqrt(density(photons, photon, count) * ratio);
 }
 
 /// Photons whose density rises by a factor of four, without a jump, from x = 0 to x = 1: (1 + 3x)/2.5.
@@ -75,7 +92,7 @@ template <class Cloud>
 
 } // namespace
 
-TEST_CASE("target spacing: distances are measured by the roots of the pilot densities") {
+TEST_CASE("target spacing: distances are measured by the roots of the corrected pilot densities") {
     const auto photons = slope(600, 31);
     const auto cloud = cloud_of(photons);
     SerialExecutor executor;
@@ -83,7 +100,7 @@ TEST_CASE("target spacing: distances are measured by the roots of the pilot dens
     const auto slots = slots_of(cloud, photons.size());
     double worst = 0;
     for (std::size_t i = 0; i < 100; ++i) {
-        const double expected = root_density(photons, i + 100, 40) / root_density(photons, i, 40);
+        const double expected = corrected_root_density(photons, i + 100, 40) / corrected_root_density(photons, i, 40);
         worst = std::max(worst, std::abs(target.factor(slots[i], slots[i + 100]) / expected - 1));
     }
     CHECK(worst < 1e-11); // distances of a tenth from coordinates up to one, squared and over each other

@@ -17,8 +17,8 @@ namespace nephroid {
 /// whose estimate no smaller one contradicts; the papers on differential checking leave the rule open
 /// [include/nephroid/README.md, "Differential checking"].
 ///
-/// With the defaults, even light of random photons is cut short in 0.1% of places for 200 photons, 0.7% for 1000 and
-/// 2.4% for 4000; of stratified photons more rarely.
+/// With the defaults, even light of random photons is cut short in fewer than 0.1% of places for 200 photons, in 0.7%
+/// for 1000 and in 2.1% for 4000; of stratified photons more rarely.
 ///
 /// No test can tell a detail from an edge. Where the light changes within a pixel, estimates follow it, and a picture
 /// with one eye path in a pixel aliases: give the pixel's size as `resolution`.

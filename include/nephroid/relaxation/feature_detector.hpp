@@ -17,8 +17,8 @@ namespace nephroid::detail {
 /// Goes over the photons and searches the neighbourhoods of those that no earlier search covers; then follows the
 /// features found, searching at the photons on them.
 ///
-/// Each leaf of the tree goes over its own photons alone, so that nothing depends on who runs it: this takes a few more
-/// searches than one pass over all photons.
+/// Each leaf of the tree goes over its own photons alone, so that the result does not depend on the threads. This takes
+/// a few more searches than one pass over all photons.
 template <class Cloud>
 class FeatureDetector {
 public:
@@ -74,12 +74,12 @@ private:
         T uu{0}, uv{0}, vv{0}, weight{0};
     };
 
-    static constexpr unsigned rounds =
-        8; ///< a feature is followed for this many neighbourhoods from where it was found
+    /// A feature is followed for so many neighbourhoods, less one, from where it was found.
+    static constexpr unsigned rounds = 8;
     /// A search covers the photons within this fraction of its neighbourhood's radius [Section 3.2.2].
     static constexpr T cover = T(0.6);
     static constexpr T cover_along_feature = T(0.2); ///< the same along features: ours
-    /// Of the lines through a photon, from which on they have a common direction.
+    /// From this anisotropy on the lines through a photon have a common direction.
     static constexpr T least_anisotropy = T(0.35);
 
     /// Searches at one leaf's photons. @return  how many searches

@@ -2,15 +2,16 @@
 /// @file  The nearest neighbours of every photon, a leaf of photons at a time.
 ///
 /// The photons of a leaf have much the same neighbours. All photons around the leaf, as far out as its photons'
-/// neighbourhoods reached before, are gathered once into arrays that a compiler vectorises over; each photon then only
-/// compares distances.
+/// neighbourhoods reached before, are copied once; each photon then only compares distances.
 #pragma once
 
+#include "nephroid/relaxation/leaf_surroundings.hpp"
 #include "nephroid/relaxation/photon_cloud.hpp"
 
 #include <algorithm>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 namespace nephroid::detail {
 
@@ -35,7 +36,7 @@ public:
     void for_each(const Cloud& cloud, std::uint32_t leaf, std::size_t count, std::span<const T> radius, Visit&& visit) {
         const TreeLeaf range = cloud.tree().leaves()[leaf];
         const T reach = reach_of(range, radius);
-        gather(cloud, range, count, reach);
+        around_.gather(cloud.tree(), range, reach, count);
         [[maybe_unused]] std::size_t moved_slot = range.first;
         [[maybe_unused]] V moved_to = cloud.position(moved_slot);
         for (std::size_t slot = range.first; slot < range.first + range.size; ++slot) {
@@ -48,18 +49,15 @@ public:
                 visit(slot, neighbours);
             } else {
                 const V to = visit(slot, neighbours);
-                put(moved_slot, moved_to); // of the photon before, so that no search waits for the last force
+                around_.move(moved_slot, moved_to); // the photon before, so that no search waits for the last force
                 moved_slot = slot, moved_to = to;
             }
         }
     }
 
-    /// Where a photon lies that may belong to the leaf at hand, and so may have moved.
+    /// Where a photon lies by now: those of the leaf at hand may have moved.
     [[nodiscard]] V position(const Cloud& cloud, std::size_t slot) const {
-        if (!in_leaf(slot))
-            return cloud.position(slot);
-        const std::size_t i = own_ + slot - leaf_.first;
-        return make_vector<V>(x_[i], y_[i], z_[i]);
+        return around_.in_leaf(slot) ? around_.position(slot) : cloud.position(slot);
     }
 
 private:
@@ -76,92 +74,22 @@ private:
         return (std::min)(slack * most, T(2) * sum / T(range.size));
     }
 
-    /// Copies the photons within the leaf's box grown by `reach`.
-    void gather(const Cloud& cloud, const TreeLeaf& range, std::size_t count, T reach) {
-        const PointTree<V>& tree = cloud.tree();
-        Box<T> box;
-        const T* const coordinates[3] = {tree.x(), tree.y(), tree.z()};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const auto [low, high] =
-                std::minmax_element(coordinates[axis] + range.first, coordinates[axis] + range.first + range.size);
-            box.low[axis] = *low - reach, box.high[axis] = *high + reach;
-        }
-        size_ = own_ = 0;
-        leaf_ = range;
-        // Photons that coincide have neighbours enough, and those of other leaves are no nearer.
-        if (box.low == box.high && range.size > count)
-            return append(tree, range, box);
-        tree.visit_leaves(box, [&](std::uint32_t leaf) {
-            if (tree.leaves()[leaf].first == range.first)
-                own_ = size_; // all of its photons lie in the box
-            append(tree, tree.leaves()[leaf], box);
-        });
-    }
-
-    void append(const PointTree<V>& tree, const TreeLeaf& leaf, const Box<T>& box) {
-        if (size_ + leaf.size > slots_.size())
-            resize(2 * size_ + PointTree<V>::leaf_size);
-        std::size_t size = size_;
-        for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot) {
-            // Written whether it lies in the box or not: cheaper than a branch.
-            const T x = tree.x()[slot], y = tree.y()[slot], z = tree.z()[slot];
-            x_[size] = x, y_[size] = y, z_[size] = z, slots_[size] = std::uint32_t(slot);
-            size += std::size_t(int(x >= box.low[0]) & int(x <= box.high[0]) & int(y >= box.low[1]) &
-                                int(y <= box.high[1]) & int(z >= box.low[2]) & int(z <= box.high[2]));
-        }
-        size_ = size;
-    }
-
-    void put(std::size_t slot, const V& position) {
-        using t = vector_traits<V>;
-        const std::size_t i = own_ + slot - leaf_.first;
-        x_[i] = t::x(position), y_[i] = t::y(position), z_[i] = t::z(position);
-    }
-
-    void resize(std::size_t size) {
-        x_.resize(size);
-        y_.resize(size);
-        z_.resize(size);
-        distance2_.resize(size);
-        slots_.resize(size);
-        hits_.resize(size);
-    }
-
-    /// Finds the neighbours among the gathered photons within a radius, at most the one gathered for.
+    /// Finds the neighbours among the photons around the leaf, within a radius of at most the one gathered for.
     /// @return whether all `count` lie there
     [[nodiscard]] bool find(const Cloud& cloud, std::size_t slot, std::size_t count, T radius) {
-        const T px = cloud.tree().x()[slot], py = cloud.tree().y()[slot], pz = cloud.tree().z()[slot];
-        const T radius2 = radius * radius;
-        const T *const x = x_.data(), *const y = y_.data(), *const z = z_.data();
-        T* const distance2 = distance2_.data();
-        for (std::size_t i = 0; i < size_; ++i)
-            distance2[i] = square(x[i] - px) + square(y[i] - py) + square(z[i] - pz);
-        std::size_t hits = 0;
-        const auto take = [&](std::size_t i) { // whether it lies within or not: cheaper than a branch
-            hits_[hits] = std::uint32_t(i);
-            hits += distance2[i] <= radius2;
-        };
-        std::size_t block = 0;
-        for (; block + 8 <= size_; block += 8) { // most eights lie outside as a whole
-            T least[4];
-            for (std::size_t i = 0; i < 4; ++i)
-                least[i] = (std::min)(distance2[block + i], distance2[block + 4 + i]);
-            if ((std::min)((std::min)(least[0], least[1]), (std::min)(least[2], least[3])) <= radius2)
-                for (std::size_t i = 0; i < 8; ++i)
-                    take(block + i);
-        }
-        for (; block < size_; ++block)
-            take(block);
-        if (hits <= count)
+        const auto hits =
+            around_.within(cloud.tree().x()[slot], cloud.tree().y()[slot], cloud.tree().z()[slot], radius);
+        if (hits.size() <= count)
             return false;
         found_.clear();
-        for (std::size_t i = 0; i < hits; ++i)
-            insert(cloud, slot, count, {distance2[hits_[i]], slots_[hits_[i]]});
+        for (const std::uint32_t number : hits)
+            insert(cloud, slot, count, {around_.distance2(number), around_.slot(number)});
         return found_.size() == count;
     }
 
     /// For lone photons: a search in the tree, which has the leaf's own photons where they were.
     void find_farther(const Cloud& cloud, std::size_t slot, std::size_t count) {
+        const TreeLeaf leaf = around_.leaf();
         for (std::size_t times = 2; times <= most_candidates; times *= 4) {
             candidates_.resize(times * count + 1);
             const std::size_t size = cloud.tree().nearest(cloud.position(slot), candidates_);
@@ -169,21 +97,17 @@ private:
             T farthest2(0);
             for (const Neighbour<T>& candidate : std::span(candidates_).first(size)) {
                 farthest2 = (std::max)(farthest2, candidate.distance2);
-                if (!in_leaf(candidate.slot))
+                if (!around_.in_leaf(candidate.slot))
                     insert(cloud, slot, count, candidate);
             }
-            for (std::uint32_t own = leaf_.first; own < leaf_.first + leaf_.size; ++own) {
-                const T distance2 = length2(V(position(cloud, own) - cloud.position(slot)));
+            for (std::uint32_t own = leaf.first; own < leaf.first + leaf.size; ++own) {
+                const T distance2 = length2(V(around_.position(own) - cloud.position(slot)));
                 if (distance2 <= farthest2 || size < candidates_.size())
                     insert(cloud, slot, count, {distance2, own});
             }
             if (found_.size() == count || size < candidates_.size())
                 return;
         }
-    }
-
-    [[nodiscard]] bool in_leaf(std::size_t slot) const {
-        return slot >= leaf_.first && slot < leaf_.first + leaf_.size;
     }
 
     void insert(const Cloud& cloud, std::size_t slot, std::size_t count, const Neighbour<T>& neighbour) {
@@ -199,10 +123,7 @@ private:
         found_[i] = neighbour;
     }
 
-    TreeLeaf leaf_{};
-    std::size_t size_ = 0, own_ = 0; ///< photons gathered, and from where on the leaf's own
-    std::vector<T> x_, y_, z_, distance2_;
-    std::vector<std::uint32_t> slots_, hits_;
+    LeafSurroundings<V> around_;
     std::vector<Neighbour<T>> found_, candidates_;
 };
 

@@ -46,15 +46,15 @@ struct RelaxationOptions {
     unsigned feature_neighbours = 150; ///< K of the feature search, 16 to 4096
     /// α and β of eq. 8: a photon is held fully where the densities of the two sides of a feature have a ratio of at
     /// most α, and not at all from β on; 0 <= α < β <= 1. The paper: α = 0 for soft caustics, 0.1 to 0.2 for sharp
-    /// ones. So edges of a ratio below 1/β are blurred.
+    /// ones. So an edge is blurred where the densities of its sides differ by a factor of less than 1/β.
     double alpha = 0.2, beta = 0.35;
     FeatureCriterion criterion = FeatureCriterion::likelihood;
-    /// The logarithm of how many times better two densities or fluxes must explain a neighbourhood's photons than one
-    /// does, at least; >= 0. With `gap_variation` for features of flux alone.
+    /// How much evidence a feature needs: the logarithm of how many times more likely two densities (or fluxes) make a
+    /// neighbourhood's photons than one does; >= 0. `gap_variation` asks it of features of flux alone.
     double evidence = 8;
-    /// The same against a density that grows evenly, exponentially, across the neighbourhood: 0 does not ask, and takes
-    /// steep slopes for edges, as the paper does. Not with `gap_variation`. Relaxation that keeps densities need not
-    /// hold slopes, and what it does hold stays noisy.
+    /// How much more evidence an edge needs than a slope, a density that grows exponentially across the neighbourhood.
+    /// 0 does not compare them and takes steep slopes for edges, as the paper does; so does `gap_variation` always.
+    /// Relaxation that keeps densities need not hold slopes, and photons that it holds stay noisy.
     double edge_evidence = 0;
     /// Whether features are also searched for in the photons' flux, its intensity and its colour.
     bool flux_features = true;
@@ -68,8 +68,8 @@ struct RelaxationOptions {
     /// [-1, 1].
     double cos_same_surface = 0.5;
     /// A photon stays within this many radii (of its first disc of K + 1 neighbours) of where it was, so that photons
-    /// at the border of a map, which nothing holds from outside, do not drift away. Hardly one inside would go farther.
-    /// Above 0, at most 16; ours. Photons with fewer than K + 1 others on their surface do not move at all.
+    /// at the border of a map, which nothing holds from outside, do not drift away. Inside a map hardly any photon would
+    /// go farther. Above 0, at most 16; ours. Photons with fewer than K + 1 others on their surface do not move at all.
     double leash = 2;
 
     /// Ours, for the least error of estimates from 20 neighbours: photons aim at the densities that the map had, and 12

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Tells parallel sheets apart that lie closer together than photons do, such as two panes with one normal.
+/// @file  Tells apart parallel sheets that lie closer together than their photons do, such as two panes.
 #pragma once
 
 #include "nephroid/relaxation/neighbourhood.hpp"
@@ -38,8 +38,8 @@ template <Scalar T>
     return abs(T(0.5) * (heights[above] + heights[above - 1]));
 }
 
-/// Finds the parallel sheets among a cloud's photons, and lets the cloud know. Two of them: of three at equal distances
-/// none is told from the others.
+/// Finds parallel sheets among a cloud's photons, and sets how far each photon's sheet reaches. Only two sheets are
+/// told apart: three at equal distances are taken for one.
 template <class Cloud, class E>
 void separate_sheets(Cloud& cloud, E& executor) {
     using V = typename Cloud::vector;

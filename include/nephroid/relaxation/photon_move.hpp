@@ -20,7 +20,7 @@ struct Push {
     std::span<const Neighbour<T>> neighbours; ///< nearest first; the last one gives the radius and does not push
     T radius;                                 ///< r of eq. 1, > 0
     T limit_radius; ///< r_p of eq. 11, > 0: the radius of the iteration before, which avoids artefacts
-    bool heap;      ///< the neighbours lie where the photon does: a feature, but one that would hold them for ever
+    bool heap;      ///< all neighbours lie where the photon does; no constraint holds it, or it would stay for ever
 };
 
 /// The force on a photon [eq. 1 and 3], constrained and damped [eq. 10 and 11].
@@ -45,10 +45,11 @@ template <class Cloud, Scalar T>
                                       : reach * separation_direction(cloud, slot, other));
     }
     force = in_tangent_plane<V>(T(1) / T(pushing) * force, cloud.normal(slot));
-    const T part = T(0.25) * push.radius;
-    if (push.heap) // or the damping, which takes them for far too strong, would leave most where they are
-        force = (part / (std::max)(part, T(length(force)))) * force;
-    else if (constraint != nullptr && push.neighbours.front().distance2 > T(0)) // two in one place part on edges too
+    const T longest = T(0.25) * push.radius;
+    if (push.heap) // shortened, as damping would all but stop so strong a force
+        force = (longest / (std::max)(longest, T(length(force)))) * force;
+    else if (constraint != nullptr &&
+             push.neighbours.front().distance2 > T(0)) // photons in one place part on edges too
         force = constrained(force, *constraint);
     if (rho > T(0))
         force = diffusion_limit<T>(length2(force), square(push.limit_radius), rho) * force;

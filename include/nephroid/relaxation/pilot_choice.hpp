@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// @file  From how many photons the densities are estimated that relaxation aims at: the map chooses.
+/// @file  Chooses for a map from how many photons to estimate the densities that relaxation aims at, its pilot.
 ///
-/// With too few the pilot's own noise becomes the target, with too many it levels out what relaxation should keep. At
-/// some photons the density is estimated from their neighbours alone, without themselves, with each candidate: the one
-/// that expects the photons best, by their mean log density, estimates best [leave-one-out likelihood: Habbema, Hermans
-/// and van den Broek 1974; Duin 1976].
+/// With too few the pilot's own noise becomes the target, with too many it levels out what relaxation should keep. With
+/// each candidate the density at some photons is estimated from their neighbours, without themselves. The best
+/// candidate finds the largest densities there, by the mean of their logarithms [leave-one-out likelihood: Habbema,
+/// Hermans and van den Broek 1974; Duin 1976].
 #pragma once
 
 #include "nephroid/relaxation/photon_cloud.hpp"
@@ -21,15 +21,16 @@ namespace nephroid::detail {
 struct PilotChoice {
     unsigned neighbours; ///< of the pilot
     bool stratified;     ///< the photons avoid each other already, as those of a low-discrepancy sequence do
-    bool judged;         ///< whether the map was fit to be judged; else `neighbours` is what serves most maps
+    bool judged;         ///< whether candidates could be compared; else `neighbours` is what serves most maps
 };
 
 /// Sums over some photons; those of two sets of photons add up.
 struct PilotEvidence {
     static constexpr std::array<unsigned, 5> candidates = {38, 75, 150, 300, 600};
     std::array<double, candidates.size()> log_density{}; ///< without what all candidates have in common
-    double judged = 0;
-    double nearness = 0, seen = 0; ///< (d₁/d₁₆)², and of how many photons
+    double judged = 0;                                   ///< photons that candidates were compared at
+    double nearness = 0;                                 ///< Σ (d₁/d₁₆)²
+    double seen = 0;                                     ///< photons in that sum
 
     void add(const PilotEvidence& other) {
         for (std::size_t i = 0; i < candidates.size(); ++i)
@@ -68,14 +69,15 @@ struct PilotEvidence {
         // Among random photons the nearest of sixteen is the least of fifteen uniform numbers: 1/16 on average.
         // Measured: Halton photons 1.3 to 2 times that, random ones 0.95 to 1.05.
         constexpr double stratified_from = 1.15, fewest = 128;
-        // Leave-one-out sees too few near a photon whose neighbours avoid it, and so too much good in large discs.
+        // The neighbours of a stratified photon keep away from it, so without itself the density there comes out too
+        // low, the more so the smaller the disc: the comparison would favour large discs.
         if (seen >= fewest && nearness / seen * 16 > stratified_from)
-            return {75, true, false};
+            return {150, true, false};
         if (judged < fewest)
             return {150, false, false};
         const auto end = log_density.begin() + std::ptrdiff_t(usable);
         const auto best = std::size_t(std::max_element(log_density.begin(), end) - log_density.begin());
-        // What a pilot blurs relaxation restores in part, but its noise stays: twice as many as for an estimate.
+        // Twice as many as for an estimate: relaxation restores part of what a pilot blurs, and none of its noise.
         return {2 * candidates[best], false, true};
     }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How far photons look for neighbours before any of them has.
+/// @file  A first guess of how far the neighbours of a photon reach.
 #pragma once
 
 #include "nephroid/tree/point_tree.hpp"
@@ -24,7 +24,7 @@ void guess_reach(const Tree& tree, const TreeLeaf& leaf, std::size_t wanted, std
         side[axis] = *high - *low;
     }
     std::sort(side.begin(), side.end());
-    // Half as much again: hardly a photon then looks farther than its leaf does.
+    // Half as much again, so that the guess is hardly ever too short.
     const T area = T(1.5) * side[2] * (std::max)(side[1], side[2] / T(leaf.size));
     std::fill_n(reach.begin() + leaf.first, leaf.size, sqrt(T(wanted) * area / (pi<T> * T(leaf.size))));
 }

@@ -3,13 +3,12 @@
 #pragma once
 
 #include "nephroid/relaxation/feature_detector.hpp"
+#include "nephroid/relaxation/first_discs.hpp"
 #include "nephroid/relaxation/flux_exchange.hpp"
 #include "nephroid/relaxation/leash.hpp"
 #include "nephroid/relaxation/neighbourhood.hpp"
 #include "nephroid/relaxation/photon_move.hpp"
 #include "nephroid/relaxation/pilot_choice.hpp"
-#include "nephroid/relaxation/reach_guess.hpp"
-#include "nephroid/relaxation/separation.hpp"
 #include "nephroid/relaxation/target_spacing.hpp"
 
 #include <algorithm>
@@ -18,7 +17,6 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace nephroid::detail {
@@ -51,7 +49,7 @@ public:
             target_.emplace(cloud, pilot_.neighbours, constraints_, executor);
         if (options.flux_diffusion != FluxDiffusion::none)
             exchange_.emplace(cloud, options);
-        measure_starts(executor);
+        measure_first_discs(cloud, options.neighbours, search_count(), reach_, leash_, executor);
     }
 
     [[nodiscard]] const PilotChoice& pilot() const { return pilot_; }
@@ -119,34 +117,12 @@ private:
                       [&](std::size_t slot) { constraints_[slot] = detector.constraint(slot); });
     }
 
-    /// Finds the disc of K + 1 neighbours about where each photon begins: what its leash is measured by.
-    template <class E>
-    void measure_starts(E& executor) {
-        const PointTree<V>& tree = cloud_->tree();
-        for_each_leaf<Neighbourhood<Cloud>>(tree, executor, [&](auto& around, std::uint32_t leaf) {
-            guess_reach(tree, tree.leaves()[leaf], search_count(), reach_);
-            std::optional<std::pair<std::size_t, T>> heap; // the photon searched last, which others may lie upon
-            around.for_each(*cloud_, leaf, search_count(), reach_,
-                            [&](std::size_t slot, std::span<Neighbour<T>> found) {
-                                reach_[slot] = found.empty() ? T(0) : sqrt(found.back().distance2);
-                                if (found.size() <= options_->neighbours)
-                                    return; // no disc: the photon stays
-                                const T radius = sqrt(found[options_->neighbours].distance2);
-                                if (radius > T(0))
-                                    return leash_.set_radius(slot, radius);
-                                if (!heap || !coincide(*cloud_, heap->first, slot))
-                                    heap = {slot, distance_to_others(*cloud_, slot)};
-                                leash_.set_radius(slot, heap->second);
-                            });
-        });
-    }
-
     /// How many neighbours are searched for: with target spacings twice as many as push a photon, as some of the
     /// farther ones may be nearer in units of the spacing.
     [[nodiscard]] std::size_t search_count() const { return (target_ ? 2 : 1) * std::size_t(options_->neighbours + 1); }
 
     /// Calls visit(neighbourhood, leaf, slot, neighbours) for the photons that have this turn, with neighbours that
-    /// `visit` may reorder, and takes down where it moves them; keeps the radii.
+    /// `visit` may reorder, and notes where it moves them and their radii.
     template <class E, class Visit>
     void for_each_neighbourhood(std::uint32_t turn, E& executor, const Visit& visit) {
         const std::size_t pushing = options_->neighbours + 1;
@@ -165,7 +141,7 @@ private:
         for_each_leaf<Neighbourhood<Cloud>>(cloud_->tree(), executor, move_leaf, turn, turns);
     }
 
-    /// After a turn `next_` has all positions but those of before it: brings these up to date.
+    /// Copies where this turn's photons went to `next_`, which the tree exchanged for the positions before the turn.
     template <class E>
     void keep_moves(std::uint32_t turn, E& executor) {
         const PointTree<V>& tree = cloud_->tree();

@@ -114,6 +114,26 @@ TEST_CASE("relaxation: a map may keep its density, be looked at by another kerne
     CHECK(read({"--timing", "--photons", "1e4"}).timing); // of no subject
 }
 
+// `chosen` asks for no k of its own: the unrelaxed map has its best alone, the relaxed one what `relax` reports.
+TEST_CASE("relaxation: k may be chosen by the map") {
+    CHECK(read({"sines", "--neighbours", "chosen"}).neighbours.empty());
+    CHECK_FALSE(read({"sines"}).neighbours.empty());
+    Options options = small("soft-disc");
+    options.neighbours.clear();
+    options.sequence = SequenceKind::random;
+    options.relaxation = RelaxationOptions::keeping_density();
+    options.relaxation.iterations = 2;
+    ThreadExecutor threads(1);
+    const Subject subject = make_subject(options, threads);
+    const BeforeAndAfter measured = before_and_after(subject, options, threads);
+    CHECK(measured.before.looks.empty());
+    REQUIRE(measured.after.looks.size() == 1);
+    CHECK(measured.after.looks[0].neighbours == measured.relaxation.estimate_neighbours);
+    const auto row = verdict_row(options, measured);
+    REQUIRE(row.has_value());
+    CHECK((*row)[3] == std::to_string(measured.relaxation.estimate_neighbours));
+}
+
 TEST_CASE("relaxation: what cannot be done is refused with a line that names the option") {
     const auto message = [](std::initializer_list<const char*> arguments) -> std::string {
         try {
