@@ -647,7 +647,7 @@ TEST_CASE("relaxation: a map that keeps its density reports the pilot and the ne
     auto report = run(photons, RelaxationOptions::keeping_density());
     CHECK_FALSE(report.stratified);
     CHECK(report.pilot_neighbours >= 300); // nothing to see: the more the better
-    CHECK(report.estimate_neighbours == std::clamp(report.pilot_neighbours / 30, 20u, 40u));
+    CHECK(report.estimate_neighbours == std::clamp(report.pilot_neighbours / 16, 20u, 40u));
     for (std::size_t i = 0; i < halton.size(); ++i) { // a lattice: (i/n, i times the golden ratio)
         const double y = double(i) * 0.6180339887498949;
         halton[i].position = {(double(i) + 0.5) / 8000, y - std::floor(y), 0};

@@ -49,13 +49,19 @@ template <class Cloud>
     return sum;
 }
 
-/// The root of the density times Σ (1 − d²/R²)/density of each/R²: the mean of what the pilot expects of all.
+/// The root of the density times how many times as many photons lie there as the pilot expects, where the excess is more
+/// than two standard deviations of even light's, sqrt(0.2/K): less their square over it.
 [[nodiscard]] double corrected_root_density(const std::vector<Stored>& photons, std::size_t photon, std::size_t count) {
     const auto nearest = disc(photons, photon, count);
-    double ratio = 0;
-    for (const auto& [distance2, other] : nearest)
-        ratio += (1 - distance2 / nearest.back().first) / nearest.back().first / density(photons, other, count);
-    return std::sqrt(density(photons, photon, count) * ratio);
+    double sum = 0, expected = 0;
+    for (const auto& [distance2, other] : nearest) {
+        const double weight = 1 - distance2 / nearest.back().first;
+        sum += weight;
+        expected += weight * density(photons, photon, count) / density(photons, other, count);
+    }
+    const double excess = expected / sum - 1, deviation = std::sqrt(0.2 / double(nearest.size()));
+    const double believed = std::abs(excess) > 2 * deviation ? excess - 4 * deviation * deviation / excess : 0;
+    return std::sqrt(density(photons, photon, count) * (1 + believed));
 }
 
 /// Photons whose density rises by a factor of four, without a jump, from x = 0 to x = 1: (1 + 3x)/2.5.

@@ -31,10 +31,10 @@
 namespace nephroid {
 
 namespace detail {
-/// k for estimates from a relaxed map, by its pilot: from so many photons on, the noise that relaxing leaves is no more
-/// than the pilot's own, which no k takes away. Beyond 40 the estimate blurs folds more than it gains elsewhere.
+/// k for estimates from a relaxed map, by its pilot: what relaxing leaves is the pilot's own noise, which no k takes
+/// away, so that a map with little detail gains hardly anything by more than 40, and folds are blurred.
 [[nodiscard]] inline std::size_t estimate_neighbours(unsigned pilot_neighbours) {
-    return std::clamp(std::size_t(pilot_neighbours) / 30, std::size_t(20), std::size_t(40));
+    return std::clamp(std::size_t(pilot_neighbours) / 16, std::size_t(20), std::size_t(40));
 }
 
 /// Goes on to the last iteration.

@@ -96,7 +96,10 @@ private:
         return {sqrt(weights / disc.radius2), (std::max)(T(0), T(1) - held / (held_at_feature * weights))};
     }
 
-    /// The root of how many times as many photons lie about one as the pilot expects there.
+    /// The root of how many times as many photons lie about one as the pilot expects there, where that is not noise.
+    ///
+    /// Under even light of random photons this ratio varies by 0.2 / K about 1. What lies within two standard
+    /// deviations is taken for that, and the more lies beyond, the more of it is believed.
     [[nodiscard]] T correction(std::size_t slot, const Disc& disc) const {
         T weights(0), ratios(0);
         for (const Neighbour<T>& other : disc.photons) {
@@ -104,7 +107,10 @@ private:
             weights = weights + weight;
             ratios = ratios + weight * square(pilots_[slot].root_density / pilots_[other.slot].root_density);
         }
-        return sqrt(std::clamp(ratios / weights, T(0.25), T(4)));
+        const T excess = ratios / weights - T(1), noise2 = T(4 * 0.2) / T(disc.photons.size());
+        if (!(square(excess) > noise2))
+            return T(1);
+        return sqrt(std::clamp(T(1) + excess - noise2 / excess, T(0.25), T(4)));
     }
 
     std::vector<Pilot> pilots_; // by slot
