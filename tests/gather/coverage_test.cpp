@@ -68,8 +68,8 @@ TEST_CASE("coverage: at a border estimates divide by the share on the surface") 
     CHECK(covered(V(0.5, 0.5, 0), up) == nearest(V(0.5, 0.5, 0), up));
 }
 
-// The irradiance is 1. Inside, 20 relaxed neighbours leave a noise of 0.05; at the border as many lie in up to twice the
-// area, and only the photons' one side evens them out. Without coverage up to half of the light is missing there.
+// The irradiance is 1. Inside, 20 relaxed neighbours leave a noise of 0.05; at the border as many lie in up to twice
+// the area, and only the photons' one side evens them out. Without coverage up to half of the light is missing there.
 TEST_CASE("coverage: of a relaxed map the border is nearly as even as its middle") {
     auto photons = tests::random_photons<V>(3000, 137);
     const auto on_table = [](std::size_t, const V& p) {

@@ -49,8 +49,8 @@ template <class Cloud>
     return sum;
 }
 
-/// The root of the density times how many times as many photons lie there as the pilot expects, where the excess is more
-/// than two standard deviations of even light's, sqrt(0.2/K): less their square over it.
+/// The root of the density times how many times as many photons lie there as the pilot expects, where the excess is
+/// more than two standard deviations of even light's, sqrt(0.2/K): less their square over it.
 [[nodiscard]] double corrected_root_density(const std::vector<Stored>& photons, std::size_t photon, std::size_t count) {
     const auto nearest = disc(photons, photon, count);
     double sum = 0, expected = 0;

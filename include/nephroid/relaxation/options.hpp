@@ -68,8 +68,8 @@ struct RelaxationOptions {
     /// [-1, 1].
     double cos_same_surface = 0.5;
     /// A photon stays within this many radii (of its first disc of K + 1 neighbours) of where it was, so that photons
-    /// at the border of a map, which nothing holds from outside, do not drift away. Inside a map hardly any photon would
-    /// go farther. Above 0, at most 16; ours. Photons with fewer than K + 1 others on their surface do not move at all.
+    /// at the border of a map, which nothing holds from outside, do not drift away. Inside a map hardly any photon
+    /// would go farther. Above 0, at most 16; ours. Photons with fewer than K + 1 others on their surface do not move.
     double leash = 2;
 
     /// Ours, for the least error of estimates from 20 neighbours: photons aim at the densities that the map had, and 12

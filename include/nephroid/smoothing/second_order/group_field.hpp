@@ -95,8 +95,8 @@ public:
 
 private:
     /// Whether footprints larger than the published ones were chosen in many cells where photons contradict the map.
-    /// Then none of the group's is trusted, since those of the cells between reach into these. Smaller footprints are no
-    /// worse than the published ones where the map is wrong. On smooth maps an eighth of the cells are contradicted, at
+    /// Then none of the group's is trusted, since those of the cells between reach into these. Smaller ones are
+    /// no worse than the published where the map is wrong. On smooth maps an eighth of the cells are contradicted, at
     /// poles and where a floor wraps.
     [[nodiscard]] bool are_shapes_contradicted() const {
         constexpr double most = 0.25;
