@@ -2,6 +2,8 @@
 /// @file  Whole numbers for places on a chart, so that neighbouring tiles agree on the nodes that they share.
 #pragma once
 
+#include "nephroid/vector/language.hpp"
+
 #include <cstdint>
 
 namespace nephroid::detail {

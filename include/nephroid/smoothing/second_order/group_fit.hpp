@@ -51,7 +51,7 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
             // dominate the fit.
             const double size2 = inner(by_axes[0], by_axes[0]) + inner(by_axes[1], by_axes[1]);
             fit.add(at, by_axes, rest * rest * (cell.size2 > 0 ? cell.size2 / (cell.size2 + size2) : 0.5));
-            landings.add(at, photon.place, rest * rest);
+            landings.add(at, photon.place, by_axes, rest * rest);
             if (&other == &cell)
                 here.push_back({{at.x, at.y, 0, 0}, by_axes, {}});
         }

@@ -2,7 +2,8 @@
 /// @file  Checks a map that was fitted to tangents against the places where photons landed.
 ///
 /// Tangents say nothing of jumps: on a flat facet of a mesh they hardly change, yet across its edge the light goes
-/// elsewhere. Places do. Footprints rest on the fitted map, so that where places contradict it none is chosen from it
+/// elsewhere. Places do. Where the tangents themselves scatter about the fit, footprints are already chosen smaller.
+/// Footprints rest on the fitted map, so that where places alone contradict it none is chosen from it
 /// [include/nephroid/README.md, "Footprints from neighbours"].
 #pragma once
 
@@ -10,7 +11,9 @@
 #include "nephroid/vector/scalar.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 namespace nephroid::detail {
@@ -28,15 +31,19 @@ namespace nephroid::detail {
 /// Where the photons around a point of the emission domain landed.
 class Landings {
 public:
-    /// @param at      displacement of the photon from the point, in the frame of the fit
-    /// @param weight  > 0
-    void add(Plane2 at, const Space3& place, double weight) { landings_.push_back({at, place, weight}); }
+    /// @param at        displacement of the photon from the point, in the frame of the fit
+    /// @param tangents  its own, by the axes of that frame
+    /// @param weight    > 0
+    void add(Plane2 at, const Space3& place, const std::array<Space3, 2>& tangents, double weight) {
+        landings_.push_back({at, place, tangents, weight});
+    }
 
     /// Whether the photons landed elsewhere than the map says.
     ///
     /// Only the point's own place is fitted to theirs. They contradict the map if what is left of their distances from
-    /// it is more than a part of them. Distances are taken from the tangents' length, not along the tangents, because
-    /// at a fold the map takes some steps nowhere.
+    /// it is more than a part of them, and more than twice what tangents that are off as much as theirs lead to.
+    /// Distances are taken from the tangents' length, not along the tangents, because at a fold the map takes some steps
+    /// nowhere.
     ///
     /// @param map           derivatives at the point, fitted to tangents
     /// @param largest_part  of the root mean square distance, >= 0
@@ -53,20 +60,27 @@ public:
             return false;
         const Space3 middle = (1 / weights) * sum;
         const double stretch2 = 0.5 * (inner(map.first[0], map.first[0]) + inner(map.first[1], map.first[1]));
-        constexpr double rounding = 2e-6; // of a place, if the renderer's scalar is a float
-        double missed = 0, distances = 0; // squared
+        constexpr double rounding = 2e-6;          // of a place, if the renderer's scalar is a float
+        double missed = 0, steps = 0, scatter = 0; // squared
         for (const Landing& landing : landings_) {
             const Space3 miss = landing.place - displacement_by(map, landing.at) - middle;
             missed += landing.weight * inner(miss, miss);
-            distances += landing.weight * stretch2 * inner(landing.at, landing.at);
+            steps += landing.weight * inner(landing.at, landing.at);
+            const auto fitted = tangents_at(map, landing.at);
+            for (std::size_t i = 0; i < 2; ++i) {
+                const Space3 off = landing.tangents[i] - fitted[i];
+                scatter += 0.5 * landing.weight * inner(off, off);
+            }
         }
-        return !(missed <= square(largest_part) * distances + weights * square(rounding * largest));
+        const double expected = (std::max)(square(largest_part) * stretch2, 4 * scatter / weights) * steps;
+        return !(missed <= expected + weights * square(rounding * largest));
     }
 
 private:
     struct Landing {
         Plane2 at;
         Space3 place;
+        std::array<Space3, 2> tangents;
         double weight;
     };
     std::vector<Landing> landings_;
