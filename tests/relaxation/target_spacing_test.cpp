@@ -102,7 +102,7 @@ TEST_CASE("target spacing: distances are measured by the roots of the corrected 
     const auto photons = slope(600, 31);
     const auto cloud = cloud_of(photons);
     SerialExecutor executor;
-    const TargetSpacing<FloorCloud<glm::dvec3>> target(cloud, 40, {}, executor);
+    const TargetSpacing<FloorCloud<glm::dvec3>> target(cloud, {40, false, true}, {}, executor);
     const auto slots = slots_of(cloud, photons.size());
     double worst = 0;
     for (std::size_t i = 0; i < 100; ++i) {
@@ -121,8 +121,8 @@ TEST_CASE("target spacing: near a feature and in places that tell no density it 
     for (std::size_t i = 0; i < photons.size(); ++i)
         if (std::abs(photons[i].position.x - 0.5) < 0.05)
             constraints[slots[i]].weight = 1;
-    const TargetSpacing<FloorCloud<glm::dvec3>> target(cloud, 60, constraints, executor);
-    const TargetSpacing<FloorCloud<glm::dvec3>> everywhere(cloud, 60, {}, executor);
+    const TargetSpacing<FloorCloud<glm::dvec3>> target(cloud, {60, false, true}, constraints, executor);
+    const TargetSpacing<FloorCloud<glm::dvec3>> everywhere(cloud, {60, false, true}, {}, executor);
     std::size_t left_alone = 0, as_if_nothing_were = 0;
     for (std::size_t i = 0; i + 1 < photons.size(); ++i) {
         const double x = photons[i].position.x;
@@ -142,7 +142,7 @@ TEST_CASE("target spacing: near a feature and in places that tell no density it 
 
     for (const auto& few : {std::vector<Stored>(300, floor_photon(1, 2)), random_floor(15, 33)}) {
         const auto small = cloud_of(few);
-        const TargetSpacing<FloorCloud<glm::dvec3>> none(small, 60, {}, executor);
+        const TargetSpacing<FloorCloud<glm::dvec3>> none(small, {60, false, true}, {}, executor);
         const auto of_few = slots_of(small, few.size());
         CHECK(none.factor(of_few[0], of_few[1]) == 1);
     }
@@ -158,8 +158,8 @@ TEST_CASE("target spacing: of the other side of a thin wall nothing is seen") {
     SerialExecutor executor;
     const auto cloud = cloud_of(photons), cloud_alone = cloud_of(alone);
     const auto slots = slots_of(cloud, photons.size()), slots_alone = slots_of(cloud_alone, alone.size());
-    const TargetSpacing<FloorCloud<glm::dvec3>> target(cloud, 40, {}, executor),
-        expected(cloud_alone, 40, {}, executor);
+    const TargetSpacing<FloorCloud<glm::dvec3>> target(cloud, {40, false, true}, {}, executor),
+        expected(cloud_alone, {40, false, true}, {}, executor);
     for (std::size_t i = 0; i < 100; ++i)
         CHECK(target.factor(slots[i], slots[i + 100]) ==
               doctest::Approx(expected.factor(slots_alone[i], slots_alone[i + 100])).epsilon(1e-9));

@@ -91,7 +91,9 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
         "had footprints without area and were left out: does `curvature` answer for the surface that was hit?");
     add(s[Fate::excessive].photons, 0.05, "had footprints without bounds and were left out");
     add(s.splatted_as_published, 0.5,
-        "were splatted as published, as their neighbours tell no better footprints: flat facets do that, and normals "
+        "were splatted as published, because their neighbours did not determine better footprints: flat facets do "
+        "that, and "
+        "normals "
         "at their vertices would help; so do several paths in one place, and more photons would help");
 }
 } // namespace detail

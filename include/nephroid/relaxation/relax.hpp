@@ -32,7 +32,7 @@ namespace nephroid {
 
 namespace detail {
 /// k for estimates from a relaxed map, by its pilot: what relaxing leaves is the pilot's own noise, which no k takes
-/// away, so that a map with little detail gains hardly anything by more than 40, and folds are blurred.
+/// away. More than 40 gains hardly anything and blurs folds.
 [[nodiscard]] inline std::size_t estimate_neighbours(unsigned pilot_neighbours) {
     return std::clamp(std::size_t(pilot_neighbours) / 16, std::size_t(20), std::size_t(40));
 }

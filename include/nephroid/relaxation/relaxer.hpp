@@ -46,7 +46,7 @@ public:
         if (pilot_.neighbours == RelaxationOptions::chosen_by_map)
             pilot_ = choose_pilot(cloud, executor);
         if (pilot_.neighbours > 0)
-            target_.emplace(cloud, pilot_.neighbours, constraints_, executor);
+            target_.emplace(cloud, pilot_, constraints_, executor);
         if (options.flux_diffusion != FluxDiffusion::none)
             exchange_.emplace(cloud, options);
         measure_first_discs(cloud, options.neighbours, search_count(), reach_, leash_, executor);

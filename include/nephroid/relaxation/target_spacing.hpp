@@ -7,6 +7,7 @@
 #pragma once
 
 #include "nephroid/relaxation/photon_cloud.hpp"
+#include "nephroid/relaxation/pilot_choice.hpp"
 #include "nephroid/relaxation/photon_constraint.hpp"
 
 #include <algorithm>
@@ -23,17 +24,20 @@ public:
 
     /// Two look-ups for every photon.
     ///
-    /// @param neighbours   of the pilot estimate, an Epanechnikov kernel that reaches to the last of them
+    /// @param choice       of the pilot estimate, an Epanechnikov kernel that reaches to the last of its neighbours
     /// @param constraints  by slot, or empty: near a feature a pilot averages both of its sides, and is trusted less
     template <class E>
-    TargetSpacing(const Cloud& cloud, std::size_t neighbours, std::span<const PhotonConstraint<V>> constraints,
+    TargetSpacing(const Cloud& cloud, const PilotChoice& choice, std::span<const PhotonConstraint<V>> constraints,
                   E& executor)
         : pilots_(cloud.tree().slots(), Pilot{T(1), T(0)}) {
+        const std::size_t neighbours = choice.neighbours;
+        const double variance = choice.stratified ? 0.02 : 0.2;
         std::vector<T> corrections(pilots_.size(), T(1));
         for_each_disc(cloud, neighbours, executor,
                       [&](std::size_t slot, const Disc& disc) { pilots_[slot] = pilot(disc, constraints); });
-        for_each_disc(cloud, neighbours, executor,
-                      [&](std::size_t slot, const Disc& disc) { corrections[slot] = correction(slot, disc); });
+        for_each_disc(cloud, neighbours, executor, [&](std::size_t slot, const Disc& disc) {
+            corrections[slot] = correction(slot, disc, T(variance));
+        });
         for (std::size_t slot = 0; slot < pilots_.size(); ++slot)
             pilots_[slot].root_density = pilots_[slot].root_density * corrections[slot];
     }
@@ -98,16 +102,24 @@ private:
 
     /// The root of how many times as many photons lie about one as the pilot expects there, where that is not noise.
     ///
-    /// Under even light of random photons this ratio varies by 0.2 / K about 1. What lies within two standard
-    /// deviations is taken for that, and the more lies beyond, the more of it is believed.
-    [[nodiscard]] T correction(std::size_t slot, const Disc& disc) const {
-        T weights(0), ratios(0);
+    /// Under even light of K random photons this ratio has a variance of 0.2 / K about 1, of stratified ones at most a
+    /// tenth of that. Only what lies beyond two standard deviations is used. Photons whose pilots are not trusted tell
+    /// nothing.
+    ///
+    /// @param variance  times K
+    [[nodiscard]] T correction(std::size_t slot, const Disc& disc, T variance) const {
+        T all(0), weights(0), ratios(0);
         for (const Neighbour<T>& other : disc.photons) {
             const T weight = disc.weight(other);
+            all = all + weight;
+            if (!(pilots_[other.slot].trust > T(0)))
+                continue;
             weights = weights + weight;
             ratios = ratios + weight * square(pilots_[slot].root_density / pilots_[other.slot].root_density);
         }
-        const T excess = ratios / weights - T(1), noise2 = T(4 * 0.2) / T(disc.photons.size());
+        if (!(weights > T(0.5) * all))
+            return T(1);
+        const T excess = ratios / weights - T(1), noise2 = T(4) * variance / T(disc.photons.size());
         if (!(square(excess) > noise2))
             return T(1);
         return sqrt(std::clamp(T(1) + excess - noise2 / excess, T(0.25), T(4)));

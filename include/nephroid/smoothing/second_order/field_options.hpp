@@ -28,7 +28,8 @@ struct FieldSample {
     Symmetric2 shape;             ///< S, the shape of the footprint
     Plane2 divergence;            ///< ∂_a S_ab
     std::array<Space3, 3> second; ///< H, the second derivatives of the map
-    bool as_published = false;    ///< whether photons contradict the map, so that they are splatted where they land
+    bool as_published = false;    ///< whether photons contradict the group's map in so many cells that all are splatted
+                                  ///< where they land
 };
 
 } // namespace nephroid::detail

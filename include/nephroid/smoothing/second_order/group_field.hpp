@@ -55,7 +55,7 @@ public:
         }
         find_borders(cells_, photons, options_.bounds.largest_radius);
         for_each_cell([&](GroupCell& cell) { choose_shape(cell); });
-        is_contradicted_ = are_shapes_contradicted();
+        is_contradicted_ = !options_.repeats && are_shapes_contradicted(); // a floor that repeats has jumps of its own
     }
 
     /// @return  nothing where too few photons determine the field
@@ -94,20 +94,21 @@ public:
     }
 
 private:
-    /// Whether footprints larger than the published ones were chosen in many cells where photons contradict the map.
-    /// Then none of the group's is trusted, since those of the cells between reach into these. Smaller ones are
-    /// no worse than the published where the map is wrong. On smooth maps an eighth of the cells are contradicted, at
-    /// poles and where a floor wraps.
+    /// Whether footprints of more area than the published ones were chosen in more than a quarter of the cells although
+    /// photons contradict the map there. Then none of the group's is trusted, since those of the cells between reach
+    /// into these. Smaller ones are no worse than the published where the map is wrong. With few cells each spans so
+    /// much of a smooth map that photons contradict it too: then nothing is concluded.
     [[nodiscard]] bool are_shapes_contradicted() const {
         constexpr double most = 0.25;
-        const double published = square(square(default_smoothing) * options_.scale); // det S
+        constexpr std::size_t fewest = 256;
+        constexpr double published = square(square(default_smoothing)); // det S
         std::size_t resolved = 0, contradicted = 0;
         for (std::size_t i = 0; i < cells_.size(); ++i)
             if (cells_[i].is_resolved) {
                 ++resolved;
                 contradicted += cells_[i].is_contradicted && cells_[i].shape.determinant() > published;
             }
-        return double(contradicted) > most * double(resolved);
+        return resolved >= fewest && double(contradicted) > most * double(resolved);
     }
 
     [[nodiscard]] static std::vector<std::array<double, 2>> coordinates_of(const PathSamples& all,

@@ -42,8 +42,9 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
             if (!(rest > 0))
                 continue;
             const auto& tangents = photon.tangents;
-            if (!std::isfinite(inner(tangents[0], tangents[0]) + inner(tangents[1], tangents[1])))
-                continue; // one photon with invalid tangents must not spoil its neighbours
+            if (!std::isfinite(inner(tangents[0], tangents[0]) + inner(tangents[1], tangents[1]) +
+                               inner(photon.place, photon.place)))
+                continue; // one invalid photon must not spoil its neighbours
             const PlaneMatrix axes = photon.frame.axes_of(cell.frame);
             const std::array<Space3, 2> by_axes{axes.first.x * tangents[0] + axes.first.y * tangents[1],
                                                 axes.second.x * tangents[0] + axes.second.y * tangents[1]};

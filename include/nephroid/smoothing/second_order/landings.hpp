@@ -3,7 +3,7 @@
 ///
 /// Tangents say nothing of jumps: on a flat facet of a mesh they hardly change, yet across its edge the light goes
 /// elsewhere. Places do. Where the tangents themselves scatter about the fit, footprints are already chosen smaller.
-/// Footprints rest on the fitted map, so that where places alone contradict it none is chosen from it
+/// Footprints rest on the fitted map: where places alone contradict it in many cells, none is chosen from it
 /// [include/nephroid/README.md, "Footprints from neighbours"].
 #pragma once
 
@@ -40,10 +40,9 @@ public:
 
     /// Whether the photons landed elsewhere than the map says.
     ///
-    /// Only the point's own place is fitted to theirs. They contradict the map if what is left of their distances from
-    /// it is more than a part of them, and more than twice what tangents that are off as much as theirs lead to.
-    /// Distances are taken from the tangents' length, not along the tangents, because at a fold the map takes some steps
-    /// nowhere.
+    /// Only the point's own place is fitted to theirs. They contradict the map if they miss it by more than a part of
+    /// their distances from the point, and by more than twice what tangents that scatter as theirs do lead to.
+    /// Distances are taken from the tangents' length, not along the tangents, because at a fold the map takes some steps nowhere.
     ///
     /// @param map           derivatives at the point, fitted to tangents
     /// @param largest_part  of the root mean square distance, >= 0

@@ -63,7 +63,8 @@ public:
             scale_tangents(deposit, T(options_.smoothing.value_or(fallback)));
             if (second != nullptr)
                 *second = {};
-            return {.as_published = has_neighbours(photon.sample) && photon.sample.coordinates != 2};
+            return {.as_published =
+                        has_neighbours(photon.sample) && photon.sample.coordinates != 2 && !options_.smoothing};
         }
         return {.shortened = shift_deposit(deposit, *found, options_.second_moment,
                                            {options_.policy.largest_shift, options_.largest_reach}, second),
