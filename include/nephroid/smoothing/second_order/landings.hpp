@@ -42,7 +42,8 @@ public:
     ///
     /// Only the point's own place is fitted to theirs. They contradict the map if they miss it by more than a part of
     /// their distances from the point, and by more than twice what tangents that scatter as theirs do lead to.
-    /// Distances are taken from the tangents' length, not along the tangents, because at a fold the map takes some steps nowhere.
+    /// Distances are taken from the tangents' length, not along the tangents, because at a fold the map takes some
+    /// steps nowhere.
     ///
     /// @param map           derivatives at the point, fitted to tangents
     /// @param largest_part  of the root mean square distance, >= 0
