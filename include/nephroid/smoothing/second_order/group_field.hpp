@@ -2,6 +2,7 @@
 /// @file  A field of footprints over one path group, fitted to the photons of the group.
 #pragma once
 
+#include "nephroid/execution/task_runner.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/smoothing/second_order/border_bounds.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
