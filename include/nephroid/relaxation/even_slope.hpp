@@ -2,6 +2,8 @@
 /// @file  Tells an edge of density from a slope: how well a density that grows evenly explains a disc of photons.
 #pragma once
 
+#include "nephroid/vector/language.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
