@@ -84,11 +84,11 @@ SheetsAndSplats sheet_caustics(const S& scene, const L& light, Sums<V, F, R>& su
             parts.push_back({chart, rectangle});
         of_chart.clear();
     };
-    const auto take_over = [&](const EmissionChart<V, F>& its, const ChartRectangle& rectangle) {
-        if (&its != at)
+    const auto take_over = [&](const EmissionChart<V, F>& from, const ChartRectangle& rectangle) {
+        if (&from != at)
             finish_chart();
-        at = &its;
-        chart = its;
+        at = &from;
+        chart = from;
         of_chart.push_back(rectangle);
     };
     SheetsAndSplats result;
@@ -106,11 +106,11 @@ SheetsAndSplats sheet_caustics(const S& scene, const L& light, Sums<V, F, R>& su
     for (const auto& any : charts_of(light, options.lamp_points).charts)
         total += any.power;
     bool goes_on = true;
-    const auto splat = [&](const auto& lamp, double its_power) {
-        PhotonPass its = detail::pass_for(pass, its_power, total);
+    const auto splat = [&](const auto& lamp, double lamp_power) {
+        PhotonPass share = detail::pass_for(pass, lamp_power, total);
         if (pass.progress)
-            its.progress = [&](std::uint64_t done) { return goes_on = pass.progress(done); };
-        result.splats += caustics(scene, lamp, sums, its, executor);
+            share.progress = [&](std::uint64_t done) { return goes_on = pass.progress(done); };
+        result.splats += caustics(scene, lamp, sums, share, executor);
     };
     if (!lamps.empty())
         splat(LightSet<Lamp>(std::move(lamps)), power);

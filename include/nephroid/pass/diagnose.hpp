@@ -92,9 +92,8 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
     add(s[Fate::excessive].photons, 0.05, "had footprints without bounds and were left out");
     add(s.splatted_as_published, 0.5,
         "were splatted as published, because their neighbours did not determine better footprints: flat facets do "
-        "that, and "
-        "normals "
-        "at their vertices would help; so do several paths in one place, and more photons would help");
+        "that, and normals at their vertices would help; so do several paths in one place, and more photons would "
+        "help");
 }
 } // namespace detail
 

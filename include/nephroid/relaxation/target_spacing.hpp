@@ -7,8 +7,8 @@
 #pragma once
 
 #include "nephroid/relaxation/photon_cloud.hpp"
-#include "nephroid/relaxation/pilot_choice.hpp"
 #include "nephroid/relaxation/photon_constraint.hpp"
+#include "nephroid/relaxation/pilot_choice.hpp"
 
 #include <algorithm>
 #include <span>

@@ -20,12 +20,6 @@
 
 namespace nephroid::detail {
 
-template <Vector3 V>
-[[nodiscard]] Space3 space3(const V& v) {
-    using t = vector_traits<V>;
-    return {double(t::x(v)), double(t::y(v)), double(t::z(v))};
-}
-
 /// J: the halves of a deposit's first two tangents, which are its derivatives by the units of the emission frame.
 template <Vector3 V, Flux F, std::size_t N>
 [[nodiscard]] std::array<Space3, 2> half_tangents(const Deposit<V, F, N>& deposit) {

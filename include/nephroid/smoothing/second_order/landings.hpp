@@ -18,16 +18,6 @@
 
 namespace nephroid::detail {
 
-/// F(δ) − F(0) by the derivatives at 0.
-[[nodiscard]] inline Space3 displacement_by(const PathDerivatives& map, Plane2 at) {
-    const double x = at.x, y = at.y;
-    const auto& [h_uu, h_uv, h_vv] = map.second;
-    const auto& [t_uuu, t_uuv, t_uvv, t_vvv] = map.third;
-    return (x * map.first[0] + y * map.first[1]) + 0.5 * ((x * x) * h_uu + ((2 * x * y) * h_uv + (y * y) * h_vv)) +
-           (1.0 / 6) *
-               (((x * x * x) * t_uuu + (3 * x * x * y) * t_uuv) + ((3 * x * y * y) * t_uvv + (y * y * y) * t_vvv));
-}
-
 /// Where the photons around a point of the emission domain landed.
 class Landings {
 public:

@@ -4,6 +4,7 @@
 
 #include "nephroid/vector/least_squares.hpp"
 #include "nephroid/vector/plane.hpp"
+#include "nephroid/vector/traits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +27,13 @@ struct Space3 {
     [[nodiscard]] friend double inner(const Space3& a, const Space3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
 
+/// A renderer's vector in double precision.
+template <Vector3 V>
+[[nodiscard]] Space3 space3(const V& v) {
+    using t = vector_traits<V>;
+    return {double(t::x(v)), double(t::y(v)), double(t::z(v))};
+}
+
 /// Derivatives of the landing point F by the two coordinates of an EmissionFrame, at a point of the domain.
 struct PathDerivatives {
     std::array<Space3, 2> first;  ///< J: F_u, F_v
@@ -40,6 +48,16 @@ struct PathDerivatives {
     const auto& [t_uuu, t_uuv, t_uvv, t_vvv] = map.third;
     return {map.first[0] + (at.x * h_uu + at.y * h_uv) + (xx * t_uuu + (xy * t_uuv + yy * t_uvv)),
             map.first[1] + (at.x * h_uv + at.y * h_vv) + (xx * t_uuv + (xy * t_uvv + yy * t_vvv))};
+}
+
+/// F(δ) − F(0): the displacement of where photons land.
+[[nodiscard]] inline Space3 displacement_by(const PathDerivatives& map, Plane2 at) {
+    const double x = at.x, y = at.y;
+    const auto& [h_uu, h_uv, h_vv] = map.second;
+    const auto& [t_uuu, t_uuv, t_uvv, t_vvv] = map.third;
+    return (x * map.first[0] + y * map.first[1]) + 0.5 * ((x * x) * h_uu + ((2 * x * y) * h_uv + (y * y) * h_vv)) +
+           (1.0 / 6) *
+               (((x * x * x) * t_uuu + (3 * x * x * y) * t_uuv) + ((3 * x * y * y) * t_uvv + (y * y * y) * t_vvv));
 }
 
 /// Second derivatives by the coordinates of another frame.

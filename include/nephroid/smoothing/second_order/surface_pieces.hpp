@@ -4,7 +4,7 @@
 #pragma once
 
 #include "nephroid/execution/task_runner.hpp"
-#include "nephroid/smoothing/second_order/emission_cells.hpp"
+#include "nephroid/smoothing/second_order/path_derivatives.hpp"
 #include "nephroid/tree/point_tree.hpp"
 
 #include <algorithm>
