@@ -162,7 +162,7 @@ WaveErrors render_wave(double amplitude, std::uint64_t photons, double smoothing
 // is damped by half of that times k². For the first harmonic, k² = 5 (2π)², 5 % of its 0.5 rms, for the second four
 // times that of its 0.2: together a relative error of 0.05, and half as much again for the noise of 64 photons on each
 // other. (Random photons would have noise of 1/sqrt(64) · sqrt(9/5) = 0.17 alone.)
-TEST_CASE_TEMPLATE("caustics: of a wave before its focus comes near the exact picture", T, float, double) {
+TEST_CASE_TEMPLATE("caustics: those of a wave before its focus come near the exact picture", T, float, double) {
     const WaveErrors errors = render_wave<T>(0.012, 5000, 8);
     CAPTURE(errors.relative);
     CAPTURE(errors.energy);
@@ -173,7 +173,7 @@ TEST_CASE_TEMPLATE("caustics: of a wave before its focus comes near the exact pi
 // At its folds the footprints are needles: the pixel filter keeps the energy. Of the thinnest footprints a lone one
 // gains or loses up to 0.43 of its flux on the lattice (3/π · 3/2 at a vertex, splat_test.cpp), of either sign: 5000
 // of nothing else would leave 0.43 / sqrt(5000).
-TEST_CASE_TEMPLATE("caustics: of a focused wave keeps the energy", T, float, double) {
+TEST_CASE_TEMPLATE("caustics: those of a focused wave keep the energy", T, float, double) {
     const WaveErrors errors = render_wave<T>(0.04, 5000, 3);
     CAPTURE(errors.relative);
     CAPTURE(errors.energy);
@@ -187,7 +187,7 @@ TEST_CASE("caustics: more photons come nearer to the exact picture") {
     CHECK(many.relative < few.relative / 3);
 }
 
-TEST_CASE("caustics: of every fate some and the account balances") {
+TEST_CASE("caustics: photons meet every fate and the account balances") {
     const auto vertices = ceiling<float>();
     const auto map = map_of(vertices);
     // The bound, as a multiple of the map's diagonal: some radii of footprints are above it, and some below.
@@ -225,7 +225,7 @@ TEST_CASE("caustics: of every fate some and the account balances") {
         CHECK(sum == 0);
 }
 
-TEST_CASE("caustics: the callback hears of the progress and can stop it") {
+TEST_CASE("caustics: the callback is told the progress and can stop it") {
     const auto vertices = floor_of<float>(16, 0, 1);
     const auto map = map_of(vertices);
     constexpr std::uint64_t count = 20000;
@@ -330,7 +330,7 @@ struct ForeignWater {
 
 // In float: smoothing/pilot_test.cpp has them in double. Each is the whole library once more, seconds of the compiler's
 // time.
-TEST_CASE("caustics: are rendered in any vectors") {
+TEST_CASE("caustics: they are rendered with any vectors") {
     using T = float;
     tests::for_each_vector<T>([]<class V>() {
         std::vector<Vertex<V>> vertices;

@@ -19,24 +19,24 @@ namespace nephroid {
 
 /// What became of the light that was drawn as sheets, and of the rest.
 struct SheetsAndSplats {
-    SheetStatistics sheets; ///< `sheets.light` counts as splatted what was handed over (`sheets.sheets.handed_over`)
-    Statistics splats; ///< of what was handed over and lamps without charts, traced again: beside the other account,
-                       ///< not to be added to it
+    SheetStatistics sheets; ///< counts as splatted also what was handed over (`sheets.sheets.handed_over`)
+    Statistics splats;      ///< of light that was handed over, and of lamps without charts. Both are traced again: an
+                            ///< account by itself, not to be added to the other
 };
 
 namespace detail {
-/// Photons to splat a part of the light with: as many as it would have of the pass's, were all splatted.
-[[nodiscard]] inline PhotonPass pass_for(const PhotonPass& pass, double power, double of_power) {
-    const double share = of_power > 0 ? power / of_power : 1.0;
-    PhotonPass its = pass;
-    its.count = (std::max)(static_cast<std::uint64_t>(std::ceil(share * double(pass.count))), std::uint64_t(1));
-    its.first = pass.first / pass.count * its.count;
+/// The pass that splats a part of the light, with as many photons as this part would get if all were splatted.
+[[nodiscard]] inline PhotonPass pass_for(const PhotonPass& pass, double power, double whole_power) {
+    const double share = whole_power > 0 ? power / whole_power : 1.0;
+    PhotonPass part = pass;
+    part.count = (std::max)(static_cast<std::uint64_t>(std::ceil(share * double(pass.count))), std::uint64_t(1));
+    part.first = pass.first / pass.count * part.count;
     // From the rounded count, so that a part of a picture stays the same part of it.
     if (pass.total != 0)
-        its.total = (std::max)(
-            static_cast<std::uint64_t>(std::llround(double(its.count) * double(pass.total) / double(pass.count))),
-            its.count);
-    return its;
+        part.total = (std::max)(
+            static_cast<std::uint64_t>(std::llround(double(part.count) * double(pass.total) / double(pass.count))),
+            part.count);
+    return part;
 }
 
 /// The lamps of a set that have no charts; of one lamp, that lamp.
@@ -54,9 +54,9 @@ template <class L>
 }
 } // namespace detail
 
-/// Adds a lamp's caustics to the sums: as light sheets, but what these cannot draw as splats. That are the parts of a
-/// lamp's chart more than a third of whose light lies where sheets end (cut gems, foam), all of it where the scene
-/// scatters by chance, and lamps that have no charts. No light is added twice, none is left out.
+/// Adds a lamp's caustics to the sums: as light sheets where sheets can be drawn, and as splats elsewhere. Splatted are
+/// the parts of a lamp's chart with more than a third of their light where sheets end (cut gems, foam), those where the
+/// scene scatters by chance, and lamps without charts. No light is added twice, and none is left out.
 ///
 /// ```cpp
 /// auto sums = nephroid::sums<float>(map);
@@ -64,9 +64,9 @@ template <class L>
 /// ```
 ///
 /// @param scene, light, sums, executor  as for `caustics`
-/// @param pass     `count` photons make sheets, about; what is handed over is traced again with as many as fall to it.
-///                 Of passes that make one picture, each has the same `count`, and `first` a multiple of it.
-///                 `progress` is asked while that is splatted, once for each lamp's photons: no sheets are left out
+/// @param pass     about `count` photons make the sheets; light that is handed over is traced again, with its share of
+///                 `count`. If several passes make one picture, all have the same `count`, and `first` is a multiple
+///                 of it. `progress` can stop the splats only, and is told their photons: sheets are always complete
 /// @param options  of the sheets
 template <class S, class L, Vector3 V, Flux F, class R, class E = SerialExecutor>
 SheetsAndSplats sheet_caustics(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,

@@ -21,7 +21,7 @@ template <class Map, class Change>
 
 } // namespace
 
-TEST_CASE("Hermite patch: cubics along each axis and u²v, uv² are met exactly") {
+TEST_CASE("Hermite patch: cubics along each axis and u²v, uv² are reproduced exactly") {
     const auto map = [](double u, double v) {
         return Double3{u * u * u - 2 * v + u * u * v, v * v * v + 3 * u * v * v, 1 + u * v - u};
     };

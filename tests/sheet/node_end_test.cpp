@@ -23,7 +23,7 @@ using End = detail::NodeEnd<glm::dvec3, double>;
 }
 } // namespace
 
-TEST_CASE("joined: neighbours on a plane, a ball and a saddle are") {
+TEST_CASE("joined nodes: neighbours on a plane, a ball and a saddle are joined") {
     CHECK(are_joined(end_at({0, 0, 0}, {0, 0, 1}), end_at({5, 3, 0}, {0, 0, 1})));
     for (double angle = 0.01; angle < 1.2; angle += 0.1)
         CHECK(are_joined(end_at({0, 0, 1}, {0, 0, 1}),
@@ -33,14 +33,14 @@ TEST_CASE("joined: neighbours on a plane, a ball and a saddle are") {
     CHECK(are_joined(saddle(0.2, -0.2), saddle(0.1, -0.1)));
 }
 
-TEST_CASE("joined: across a table's edge, between shelves and behind a wall they are not") {
+TEST_CASE("joined nodes: across a table's edge, between shelves and behind a wall they are not") {
     CHECK_FALSE(are_joined(end_at({0, 0, 0}, {0, 0, 1}), end_at({0.1, 0, 0.5}, {0, 0, 1})));
     CHECK_FALSE(are_joined(end_at({0, 0, 0}, {0, 0, 1}), end_at({0.02, 0, 0.002}, {0, 0, 1}))); // a fifth of a pixel
     CHECK_FALSE(are_joined(end_at({0, 0, 0}, {0, 0, 1}), end_at({0.1, 0, 0}, {0, 0, -1})));
     CHECK_FALSE(are_joined(end_at({0, 0, 0}, {0, 0, 1}), end_at({0.1, 0, 0.1}, {1, 0, 0}))); // floor and wall
 }
 
-TEST_CASE("joined: what is off by less than a tenth of a pixel is one surface") {
+TEST_CASE("joined nodes: a step of less than a tenth of a pixel does not separate them") {
     CHECK(are_joined(end_at({0, 0, 0}, {0, 0, 1}), end_at({0.02, 0, 0.0009}, {0, 0, 1})));
 }
 

@@ -10,7 +10,7 @@
 
 namespace nephroid::tests::node_lattice_test {
 
-TEST_CASE("node grid: as many tasks trace its nodes as it says, and each node once") {
+TEST_CASE("node grid: it announces its tasks and traces each node once") {
     using V = glm::vec3;
     for (const std::int64_t cells_u : {1, 13, 510, 512})
         for (const std::int64_t cells_v : {1, 11, 496}) {

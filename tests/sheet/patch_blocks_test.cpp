@@ -137,7 +137,7 @@ TEST_CASE("patch: many small ones side by side light a plane evenly") {
         CHECK(e == doctest::Approx(1).epsilon(2e-4)); // of the footprints' sides, in float, where nothing lies beyond
 }
 
-TEST_CASE("patch: light a fifth of a pixel above vertices, or on their back, is none of theirs") {
+TEST_CASE("patch: vertices a fifth of a pixel below it or facing away get no light") {
     Picture<float> above(pixels_at<float>(0, 16));
     const PatchCorners whole = quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0});
     above.draw(whole, 1, {}, 0.2 / 16);
@@ -153,7 +153,7 @@ TEST_CASE("patch: light a fifth of a pixel above vertices, or on their back, is 
     CHECK(back.flux() == 0);
 }
 
-TEST_CASE("patch: one that is out of sight is said to be so") {
+TEST_CASE("patch: a patch that no vertex sees is reported as unseen") {
     Picture<float> picture(pixels_at<float>(0, 16));
     CHECK_FALSE(picture.draw(quad({2, 0, 0}, {3, 0, 0}, {3, 1, 0}, {2, 1, 0}), 1));
     CHECK(picture.blocks == 0);

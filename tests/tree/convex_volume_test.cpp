@@ -154,7 +154,7 @@ TEST_CASE_TEMPLATE("convex volume: a thick triangle finds all points that brute 
     CHECK(2 * by_planes < by_box);
 }
 
-TEST_CASE("convex volume: balls one in the other and triangles without an area are bounded by their boxes") {
+TEST_CASE("convex volume: a ball inside another and triangles without an area are bounded by their boxes") {
     using V = glm::vec3;
     const auto frustum = frustum_about(V(0, 0, 0), V(0.1f, 0, 0), 1.f, 0.2f);
     CHECK(frustum.overlaps({{0.9f, 0, 0}, {0.9f, 0, 0}}));

@@ -12,7 +12,7 @@ namespace nephroid::tests::smallest_test {
 using tests::Draws;
 
 // What the limit keeps is counted, and compared with the sorted values.
-TEST_CASE_TEMPLATE("smallest: the limit keeps as many as are wanted and a few to spare", T, float, double) {
+TEST_CASE_TEMPLATE("smallest: the limit keeps as many as are wanted and at most a few more", T, float, double) {
     Draws draw(1);
     for (const std::size_t size : {1u, 2u, 24u, 333u})
         for (int kind = 0; kind < 4; ++kind)

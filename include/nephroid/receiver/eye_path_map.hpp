@@ -139,11 +139,11 @@ private:
             nodes_[i].reach = {};
             const TreeLeaf leaf = tree_.leaves()[tree_.nodes()[i].leaf];
             for (std::size_t slot = leaf.first; slot < leaf.first + detail::slots_of(leaf); ++slot) {
-                const PixelFootprint<V> its = detail::footprint_of(vertices, footprint, tree_.index(slot));
-                const bool is_unknown = detail::is_unknown(its);
-                detail::add_reach(nodes_[i].reach, is_unknown ? squares : detail::reach_of(its));
+                const PixelFootprint<V> given = detail::footprint_of(vertices, footprint, tree_.index(slot));
+                const bool is_unknown = detail::is_unknown(given);
+                detail::add_reach(nodes_[i].reach, is_unknown ? squares : detail::reach_of(given));
                 set_rows(slot, is_unknown ? detail::square_rows(normal_at(slot), leaves_[tree_.nodes()[i].leaf].spacing)
-                                          : checked_rows(its, tree_.index(slot)));
+                                          : checked_rows(given, tree_.index(slot)));
             }
         }
     }

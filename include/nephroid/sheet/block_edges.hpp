@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  From the corners of a few neighbouring quads to the edges across which the density of light jumps.
+/// @file  Lists the edges of a few neighbouring quads across which the density of light jumps.
 #pragma once
 
 #include "nephroid/sheet/double3.hpp"
@@ -21,22 +21,23 @@ struct QuadGrid {
     std::size_t columns = 0, rows = 0;                          ///< of quads
     std::array<std::array<Double3, most + 1>, most + 1> corner; ///< relative to the block's middle, rounded
     std::array<std::array<std::array<double, 2>, most + 1>, most + 1> in_plane; ///< the same along two axes u × v = n
-    double share = 0;                                                           ///< of a flux of 1, for each quad
+    double share = 0;                                                           ///< of the patch's flux, in each quad
 };
 
 /// Makes edges and loose triangles of a grid of quads.
 ///
-/// A quad that is a parallelogram but for a tenth is one piece, any other is two triangles of equal flux. A triangle of
-/// too little area for a density goes to `loose`.
+/// A quad that is a parallelogram to within a tenth is one piece, any other is two triangles of equal flux. A triangle
+/// with too little area for a density goes to `loose`.
 template <Scalar T>
 class BlockEdges {
 public:
-    /// @param loose  loose(a, b, c, share): a triangle of this share of the flux, corners as [row, column] of the grid
+    /// @param loose  loose(a, b, c, share): gets such a triangle, by its corners (row and column in the grid) and its
+    ///               share of the flux
     template <class Loose>
     BlockEdges(const QuadGrid& grid, double pixel, const Loose& loose) : grid_(grid), pixel_(pixel) {
         for (std::size_t j = 0; j < grid.rows; ++j)
             for (std::size_t i = 0; i < grid.columns; ++i)
-                weigh(j, i, loose);
+                set_densities(j, i, loose);
     }
 
     /// The largest density of a piece.
@@ -72,7 +73,7 @@ private:
     /// A quad, or the darkness beside the block for j or i of −1 or beyond the last.
     [[nodiscard]] const Quad& beside(std::size_t j, std::size_t i) const { return quads_[j + 1][i + 1]; }
 
-    /// Whether a quad is cut from its first corner to the opposite one; neighbours take turns.
+    /// Whether a quad is cut from its first corner to the opposite one. Neighbours alternate.
     [[nodiscard]] static bool is_forward(std::size_t j, std::size_t i) { return ((i + j) & 1) == 0; }
 
     [[nodiscard]] double area(const Corner& a, const Corner& b, const Corner& c) const {
@@ -87,7 +88,7 @@ private:
     }
 
     template <class Loose>
-    void weigh(std::size_t j, std::size_t i, const Loose& loose) {
+    void set_densities(std::size_t j, std::size_t i, const Loose& loose) {
         const Corner a{j, i}, b{j, i + 1}, c{j + 1, i + 1}, d{j + 1, i};
         const std::array<double, 4> corners = {area(a, b, d), area(a, b, c), area(b, c, d), area(a, c, d)};
         const auto [least, most] = std::minmax_element(corners.begin(), corners.end());
@@ -95,7 +96,7 @@ private:
         const double larger = (std::max)(std::abs(*least), std::abs(*most));
         Quad& quad = quads_[j + 1][i + 1];
         const auto density = [&](double signed_area, double share, const Corner& p, const Corner& q, const Corner& r) {
-            // Below this rounding of its corners would show in its density.
+            // With less area than this, the rounding of its corners would show in its density.
             const double least_area = 2e-4 * pixel_ * (std::max)(pixel_, std::sqrt(longest2(p, q, r)));
             if (!(std::abs(signed_area) >= least_area)) {
                 loose(p, q, r, share);
@@ -120,7 +121,7 @@ private:
         }
     }
 
-    /// Lists an edge unless nothing jumps across it, without a branch.
+    /// Lists an edge, without a branch, unless the density does not jump there.
     void add(const Corner& from, const Corner& to, double jump) {
         from_[count_] = number(from);
         to_[count_] = number(to);

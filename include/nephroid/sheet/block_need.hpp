@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Whether the patches between nine photons say well enough where light lands.
+/// @file  Whether the patches between nine photons predict well enough where light lands.
 #pragma once
 
 #include "nephroid/sheet/node_block.hpp"
@@ -13,7 +13,7 @@
 
 namespace nephroid::detail {
 
-/// Looks at blocks of 2 × 2 cells.
+/// Measures how much blocks of 2 × 2 cells need to be split.
 template <Vector3 V, Flux F>
 class BlockNeeds {
 public:
@@ -50,7 +50,7 @@ public:
         return need;
     }
 
-    /// What reaches vertices of a block's flux, about: the mean density of those of its nodes that meet something.
+    /// About how much of a block's flux reaches vertices, from the mean density of its nodes.
     [[nodiscard]] double seen_flux(const Block& block, std::int64_t step) const {
         return reaches_vertices(Extent(block)) ? density(block) * 4 * area_ * double(step) * double(step) : 0;
     }
@@ -76,7 +76,7 @@ private:
         }
     };
 
-    /// Whether the box, grown by half, does.
+    /// Whether a block's box, enlarged by half of its size, overlaps footprints.
     [[nodiscard]] bool reaches_vertices(const Extent& extent) const {
         Box<double> box = extent.box;
         if (!(box.low[0] <= box.high[0]))
@@ -90,7 +90,8 @@ private:
         return met;
     }
 
-    /// What is smaller than a quarter of a pixel is right to a pixel, unless it is all but missed.
+    /// A broken block that is smaller than a quarter of a pixel need not be split, unless so few of its nodes are lit
+    /// that most of a sheet may be missed.
     [[nodiscard]] static BlockNeed need_of_broken(const Block& block, double size, double pixel) {
         if (count_lit<V, F>(block) < 5)
             return {(std::max)(float(4 * size / pixel), 2.0f), true};

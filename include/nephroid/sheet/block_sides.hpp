@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The two directions across a block's sides, by which vertices beside it are told.
+/// @file  The two directions across a block's sides, along which vertices beside the block are recognised.
 #pragma once
 
 #include "nephroid/sheet/block_edges.hpp"
@@ -11,7 +11,7 @@
 
 namespace nephroid::detail {
 
-/// Says how far a block reaches across its sides.
+/// Sets these directions, and how far the block reaches along them.
 template <Vector3 V, Flux F>
 void set_sides(SheetBlock<V, F>& block, const QuadGrid& grid, const Double3& normal) {
     using T = scalar_t<V>;

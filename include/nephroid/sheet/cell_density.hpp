@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How much light there is in a cell, and how bright on its patch.
+/// @file  The mean density of light in a cell, and the mean irradiance on its patch.
 #pragma once
 
 #include "nephroid/sheet/lit_patch.hpp"
@@ -14,9 +14,9 @@
 namespace nephroid::detail {
 
 /// The mean over a cell of the quadratic through the nine nodes of its block of 2 × 2 cells [Newton and Cotes: weights
-/// (5, 8, −1)/12 along each axis]; of the corners where the block is not whole.
+/// (5, 8, −1)/12 along each axis]; the mean of the cell's corners if the block is not whole.
 ///
-/// @param ends   the cell's corners' on the sheet, counter-clockwise
+/// @param ends   of the cell's corners on the sheet, counter-clockwise
 /// @param known  known(place) -> NodeEnds: nodes that have been traced
 template <Vector3 V, Flux F, class Known>
 [[nodiscard]] F mean_density(const Cell& cell, const std::array<const NodeEnd<V, F>*, 4>& ends, const Known& known) {
@@ -38,7 +38,7 @@ template <Vector3 V, Flux F, class Known>
                          along_v = weight[std::size_t(cell.place.j == block.j ? j : 2 - j)];
             sum = sum + node->density * T(along_u * along_v);
         }
-    // Where the density falls to nothing the quadratic may pass it.
+    // Where the density falls to zero the quadratic may fall below.
     return flux_traits<F>::power(sum) > 0 ? sum : mean_of_corners();
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What of a cell belongs to a sheet that ends within it: polygons, by marching squares.
+/// @file  The parts of a cell that are covered by a sheet which ends within it: polygons, found by marching squares.
 #pragma once
 
 #include "nephroid/sheet/node_lattice.hpp"
@@ -9,14 +9,14 @@
 
 namespace nephroid::detail {
 
-/// A corner of what is left of a cell.
+/// A corner of such a polygon.
 template <Vector3 V, Flux F>
 struct OutlinePoint {
     double u, v; ///< in the cell, 0 to 1
     NodeEnd<V, F> node;
 };
 
-/// One connected piece: up to four corners of the cell, and where the sheet ends on two of its sides.
+/// One connected part: up to four corners of the cell, and where the sheet ends on two of its sides.
 template <Vector3 V, Flux F>
 struct CellOutline {
     std::array<OutlinePoint<V, F>, 6> points;
@@ -24,7 +24,7 @@ struct CellOutline {
 
     void add(const OutlinePoint<V, F>& point) { points[size++] = point; }
 
-    /// Of the part of the cell's area in a triangle of its points.
+    /// The area of a triangle of its points, as a part of the cell's.
     [[nodiscard]] double area(std::size_t a, std::size_t b, std::size_t c) const {
         const auto &p = points[a], &q = points[b], &r = points[c];
         return 0.5 * ((q.u - p.u) * (r.v - p.v) - (r.u - p.u) * (q.v - p.v));
@@ -38,7 +38,7 @@ struct CellOutline {
     }
 };
 
-/// Looks for where sheets end.
+/// Finds where sheets end within cells.
 ///
 /// @tparam Nodes  has `at(place)`: NodeCache
 template <Vector3 V, Flux F, class Nodes, class Pixel>
@@ -46,15 +46,16 @@ class OutlineFinder {
 public:
     using Node = NodeEnd<V, F>;
 
-    /// @param halvings  of a cell's side at most, to find where on it a sheet ends
+    /// @param halvings  how often a cell's side is halved at most, to find where on it a sheet ends
     OutlineFinder(Nodes& nodes, const Pixel& pixel, unsigned halvings)
         : nodes_(nodes), pixel_(pixel), halvings_(halvings) {}
 
-    /// Calls visit(outline) for each piece of the cell that carries this signature.
+    /// Calls visit(outline) for each part of the cell that is covered by the sheet of one signature.
     ///
     /// @param place     of the cell's first corner
     /// @param step      of its sides
-    /// @param corner    its corners' ends with the signature, counter-clockwise from the first; null where none is
+    /// @param corner    its corners' ends with the signature, counter-clockwise from the first; null if a corner
+    ///                  has none
     /// @param is_joined whether corners k and k + 1 are neighbours on one sheet
     template <class Visit>
     void visit_pieces(const LatticePlace& place, std::int64_t step, const std::array<const Node*, 4>& corner,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  A cell of a chart becomes light on the receiver: a patch where it is whole, polygons where sheets end in it.
+/// @file  Turns a cell of a chart into light on the receiver: one patch if a sheet covers the cell, polygons if sheets
+///        end in it.
 #pragma once
 
 #include "nephroid/sheet/cell_density.hpp"
@@ -44,8 +45,8 @@ public:
         if (outlines_.empty())
             return;
         ++account_.cut_cells;
-        // Where each corner has one end, so has all light between them: what bands too thin to be met by a node would
-        // get is shared out among the others.
+        // If each corner has exactly one end, so has all light between them. What would fall on bands too thin to hold
+        // a node is shared among the outlines.
         double covered = 0;
         for (const CellOutline<V, F>& outline : outlines_)
             covered += outline.area();
@@ -69,7 +70,7 @@ private:
         return true;
     }
 
-    /// Draws a sheet's patch if it covers the whole cell, else notes its outlines.
+    /// Draws a sheet's patch if the sheet covers the whole cell, and keeps its outlines otherwise.
     void add_sheet(const Cell& cell, const std::array<NodeEnds<V, F>, 4>& corners, std::uint32_t signature) {
         std::array<const Node*, 4> ends;
         for (std::size_t k = 0; k < 4; ++k)
@@ -91,7 +92,7 @@ private:
                               [&](const CellOutline<V, F>& outline) { outlines_.push_back(outline); });
     }
 
-    /// As far as a regular cell's sides are halved, but no less than twice.
+    /// How often a cell's sides are halved: down to the same length for cells of all sizes, but at least twice.
     [[nodiscard]] unsigned halvings_of(const Cell& cell) const {
         unsigned halvings = Lattice::bisections;
         for (std::int64_t step = cell.step; step < lattice_.step() && halvings > 2; step *= 2)

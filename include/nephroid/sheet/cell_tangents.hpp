@@ -12,8 +12,8 @@ namespace nephroid::detail {
 /// neighbours are on the sheet, the three-point one-sided one, (−3 x₀ + 4 x₁ − x₂)/2, where one is, else
 /// zero.
 ///
-/// Where the two sides differ by more than four times and more than two pixels there is a crease that nothing else
-/// tells of: then the shorter side's.
+/// If the changes on the two sides differ by more than four times and by more than two pixels, there is a crease that
+/// the normals do not show, and the shorter change is taken.
 ///
 /// @param known   known(place) -> NodeEnds: nodes that have been traced
 /// @param pixel   pixel() -> world units

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  The sheets of one chart: traced by sectors, cut up by tiles, added to the sums by leaves.
+/// @file  Draws the sheets of one chart: nodes are traced by sectors, cells become pieces by tiles, and pieces are
+///        added to the sums by leaves.
 #pragma once
 
 #include "nephroid/emission/chart/chart_light.hpp"
@@ -38,7 +39,7 @@ public:
           brightness_(brightness), weight_(weight), executor_(executor), take_over_(take_over),
           bins_(sums.map().tree().leaves().size()) {}
 
-    /// @param refining  how many nodes may be added to the lattice's
+    /// @param refining  how many nodes may be added to the regular ones of the lattice
     void draw(const Lattice& lattice, double refining, SheetStatistics& statistics) {
         for (const CellRange& sector : sectors_of(lattice)) {
             announce(executor_, Phase::trace);
@@ -51,7 +52,7 @@ public:
             for (std::size_t first = 0; first < tiles.size(); first += tiles_per_batch) {
                 const auto batch = std::span(tiles).subspan(first, (std::min)(tiles_per_batch, tiles.size() - first));
                 announce(executor_, Phase::fit);
-                cut_up(lattice, batch, std::span(most_nodes).subspan(first, batch.size()), statistics);
+                make_pieces(lattice, batch, std::span(most_nodes).subspan(first, batch.size()), statistics);
                 announce(executor_, Phase::splat);
                 add_to_sums(batch.size());
             }
@@ -82,8 +83,9 @@ private:
         }
     }
 
-    void cut_up(const Lattice& lattice, std::span<const CellRange> tiles, std::span<const double> most_nodes,
-                SheetStatistics& statistics) {
+    /// Makes the pieces of some tiles, and hands over those that are broken.
+    void make_pieces(const Lattice& lattice, std::span<const CellRange> tiles, std::span<const double> most_nodes,
+                     SheetStatistics& statistics) {
         const BlockNeeds<V, F> needs(pixels_, options_.refinement, lattice.area());
         tiles_.resize((std::max)(tiles_.size(), tiles.size()));
         is_broken_.assign(tiles.size(), 0);
@@ -117,7 +119,7 @@ private:
             accounts[i].light = traced.account;
             is_broken_[i] = is_broken(accounts[i].sheets) || (is_taken_over && (is_by_chance_ || traced.by_chance > 0));
             if (is_broken_[i])
-                give_away(tiles_[i], accounts[i].sheets);
+                book_broken(tiles_[i], accounts[i].sheets);
         });
         for (std::size_t i = 0; i < tiles.size(); ++i) {
             statistics.light += accounts[i].light;
@@ -132,12 +134,13 @@ private:
         }
     }
 
+    /// Whether more than a third of the light is in cells in which sheets end.
     [[nodiscard]] static bool is_broken(const SheetAccount& account) {
         return 3 * account.cut.flux > account.seen.flux + account.unseen.flux;
     }
 
-    /// Books a broken tile's light, which is drawn if nobody takes it over.
-    static void give_away(TilePieces<V, F>& tile, SheetAccount& account) {
+    /// Books the light of a broken tile, and removes its pieces if a caller takes it over.
+    static void book_broken(TilePieces<V, F>& tile, SheetAccount& account) {
         ++account.broken_tiles;
         Tally& to = is_taken_over ? account.handed_over : account.broken;
         to.add(account.seen.flux + account.unseen.flux);
@@ -184,7 +187,7 @@ private:
     std::vector<TracedNodes> traced_;
     std::vector<TilePieces<V, F>> tiles_;
     std::vector<char> is_broken_;
-    bool is_by_chance_ = false; ///< the sector's paths are no function of where they begin
+    bool is_by_chance_ = false; ///< whether the scene drew random numbers in the sector
     LeafBins bins_;
 };
 

@@ -32,7 +32,7 @@ template <class R>
     const R from_t = clamped(a_t), to_t = clamped(b_t);
     const bool is_level = (rise < R(0) ? -rise : rise) < least;
     const R slope = run / (is_level ? R(1) : rise);
-    // Each end from its own corner: where nothing is clamped, it is the corner itself, as the next edge has it.
+    // Each end is computed from its own corner. If it is not clamped it is exactly the corner, as for the next edge.
     const R from_s = a_s + (from_t - a_t) * slope, to_s = b_s - (b_t - to_t) * slope;
     const R from_l = clamped(from_s), to_l = clamped(to_s);
     const R from_g = from_s > R(1) ? from_s : R(1), to_g = to_s > R(1) ? to_s : R(1);
@@ -54,8 +54,8 @@ template <class R>
     return (c[1].s - c[0].s) * (c[2].t - c[0].t) - (c[2].s - c[0].s) * (c[1].t - c[0].t);
 }
 
-/// The share of a triangle's area that lies in the unit square, 0 to 1. One all but without area (below 10⁻¹⁰,
-/// or 10⁻⁹ of its longest side squared) is taken for points along its longest side.
+/// The share of a triangle's area that lies in the unit square, 0 to 1. A triangle almost without area (below
+/// 10⁻¹⁰, or 10⁻⁹ of its longest side squared) counts as its longest side, with light spread evenly along it.
 template <class R>
 [[nodiscard]] R covered_share(const std::array<FootprintPlace<R>, 3>& c) {
     const auto length2 = [&](std::size_t i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A place or a vector in double, whatever the renderer's own vectors are made of.
+/// @file  A position or a vector in double precision, whatever the renderer's own vectors are made of.
 #pragma once
 
 #include "nephroid/vector/algebra.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Edges of patches in groups as wide as a vector register, and where they are kept.
+/// @file  Edges of patches in groups as wide as a vector register, and the memory for them.
 #pragma once
 
 #include "nephroid/vector/scalar.hpp"
@@ -20,13 +20,13 @@ struct EdgeGroup {
     std::array<T, lanes> jump;
 };
 
-/// Groups of edges that stay where they are until all are cleared.
+/// Memory for groups of edges. A group stays where it is until all are cleared.
 template <Scalar T>
 class EdgePages {
 public:
     static constexpr std::size_t page_size = 256; ///< groups: 56 KiB of floats
 
-    /// Room for as many groups in a row, not more than a page.
+    /// Returns room for this many consecutive groups, at most a page.
     [[nodiscard]] std::span<EdgeGroup<T>> add(std::size_t groups) {
         if (pages_.empty() || used_ + groups > page_size) {
             page_ += std::size_t(!pages_.empty());
@@ -39,7 +39,7 @@ public:
         return room;
     }
 
-    /// The memory is kept.
+    /// Removes all groups, and keeps the memory.
     void clear() { page_ = used_ = 0; }
 
 private:

@@ -12,14 +12,14 @@ namespace nephroid::detail {
 /// What a photon at a corner of a cell gives to its patch.
 struct PatchCorner {
     Double3 position;         ///< relative to the receiver's origin
-    Double3 along_u, along_v; ///< how it changes over the cell's sides, world units
+    Double3 along_u, along_v; ///< how the position changes over the cell's sides, world units
 };
 
 /// Corners of a cell: [i][j] at u = i, v = j.
 using PatchCorners = std::array<std::array<PatchCorner, 2>, 2>;
 
-/// How the position changes with both at once, from the boundary's curves alone [Adini; see Barnhill and Gregory 1975,
-/// "Compatible smooth interpolation in triangles"]: exact for biquadratic maps without the term u²v².
+/// The position's mixed second derivative at a corner, from the boundary's curves alone [Adini; see Barnhill and
+/// Gregory 1975, "Compatible smooth interpolation in triangles"]: exact for biquadratic maps without the term u²v².
 [[nodiscard]] inline Double3 adini_twist(const PatchCorners& c, std::size_t i, std::size_t j) {
     const Double3 u_change = c[i][1].along_u - c[i][0].along_u, v_change = c[1][j].along_v - c[0][j].along_v;
     const Double3 corners = (c[0][0].position - c[1][0].position) - (c[0][1].position - c[1][1].position);
@@ -30,7 +30,7 @@ using PatchCorners = std::array<std::array<PatchCorner, 2>, 2>;
 class HermitePatch {
 public:
     explicit HermitePatch(const PatchCorners& c) {
-        // By v at u = 0, by v at u = 1, and the same of ∂/∂u: values and slopes at v = 0, 1.
+        // Cubics in v of the position and of its derivative by u, at u = 0 and at u = 1.
         const auto powers = [](const Double3& from, const Double3& to, const Double3& slope, const Double3& slope_to) {
             const Double3 way = to - from;
             return std::array<Double3, 4>{from, slope, 3.0 * way - (2.0 * slope + slope_to),
@@ -48,7 +48,7 @@ public:
         }
     }
 
-    /// The curve of u at one v.
+    /// The patch at one v: a cubic in u.
     [[nodiscard]] std::array<Double3, 4> curve_at(double v) const {
         std::array<Double3, 4> curve;
         for (std::size_t k = 0; k < 4; ++k)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Whole numbers for places on a chart, so that neighbouring tiles agree on the nodes that they share.
+/// @file  Integer coordinates of places on a chart, so that neighbouring tiles agree on the nodes that they share.
 #pragma once
 
 #include "nephroid/vector/language.hpp"
@@ -18,23 +18,25 @@ struct LatticePlace {
     friend LatticePlace operator*(std::int64_t s, const LatticePlace& a) { return {s * a.i, s * a.j}; }
 };
 
-/// Cells of a chart, and into how many steps each side is cut at most: bisection and refinement go by halves.
+/// How a chart is divided into cells, and a cell's sides into steps. Refinement halves the sides, and so does the
+/// search for where sheets end.
 struct Lattice {
     static constexpr unsigned bisections = 6;
 
     std::int64_t cells_u = 0, cells_v = 0; ///< even
     unsigned levels = 0;                   ///< of refinement
 
-    [[nodiscard]] std::int64_t step() const { return std::int64_t(1) << (levels + bisections); } ///< of a cell
+    /// How many steps a cell's side has.
+    [[nodiscard]] std::int64_t step() const { return std::int64_t(1) << (levels + bisections); }
     [[nodiscard]] double u(const LatticePlace& p) const { return double(p.i) / (double(cells_u) * double(step())); }
     [[nodiscard]] double v(const LatticePlace& p) const { return double(p.j) / (double(cells_v) * double(step())); }
-    /// Of a square of one step, on the chart.
+    /// The area of a square of one step, as a part of the chart.
     [[nodiscard]] double area() const {
         return 1 / (double(cells_u) * double(step()) * (double(cells_v) * double(step())));
     }
 };
 
-/// A rectangle of cells, and of the nodes about it.
+/// A rectangle of cells.
 struct CellRange {
     std::int64_t begin_u, end_u, begin_v, end_v;
 
@@ -43,8 +45,8 @@ struct CellRange {
     [[nodiscard]] std::int64_t cells() const { return columns() * rows(); }
 };
 
-/// The area of the chart around a regular node that it stands for: a cell's, less at the chart's borders; 0 for a node
-/// of the ring about a range, which is another range's.
+/// The area of the chart that a regular node stands for: that of a cell, and less at the chart's borders. 0 for a node
+/// outside the range, which belongs to another range.
 [[nodiscard]] inline double area_of_node(const Lattice& lattice, const CellRange& cells, const LatticePlace& place) {
     const auto share = [step = lattice.step()](std::int64_t at, std::int64_t begin, std::int64_t end,
                                                std::int64_t all) {

@@ -2,6 +2,7 @@
 /// @file  Blocks of sheets sorted by the leaves that they may light, so that each leaf is summed up by one thread.
 #pragma once
 
+#include "nephroid/execution/counting_sort.hpp"
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/sheet/tile_pieces.hpp"
 
@@ -10,8 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
-#include <vector>
 
 namespace nephroid::detail {
 
@@ -20,18 +19,15 @@ struct BinnedBlock {
     std::uint32_t tile, block, leaf;
 };
 
-/// Visits by groups of neighbouring leaves, within a group in the order of tiles and blocks.
+/// Bins of blocks, one for each group of neighbouring leaves; in each the blocks are in the order of tiles and blocks.
 class LeafBins {
 public:
     explicit LeafBins(std::size_t leaves)
-        : bits_((std::max)(1u, unsigned(std::bit_width(leaves >> 13)))), groups_((leaves >> bits_) + 1) {}
+        : group_bits_((std::max)(1u, unsigned(std::bit_width(leaves >> 13)))), groups_((leaves >> group_bits_) + 1) {}
 
     [[nodiscard]] std::size_t groups() const { return groups_; }
-    [[nodiscard]] std::span<const BinnedBlock> operator[](std::size_t group) const {
-        return {bins_.data() + begin_[group], begin_[group + 1] - begin_[group]};
-    }
+    [[nodiscard]] std::span<const BinnedBlock> operator[](std::size_t group) const { return sorted_.items_of(group); }
 
-    /// A counting sort, of which 16 parts count and move their visits at the same time.
     template <Vector3 V, Flux F, class E>
     void sort(std::span<const TilePieces<V, F>> tiles, E& executor) {
         constexpr std::size_t parts = 16;
@@ -40,33 +36,23 @@ public:
             const std::size_t end = (std::min)(tiles.size(), (part + 1) * tiles_per_part);
             for (std::size_t tile = part * tiles_per_part; tile < end; ++tile)
                 for (const BlockVisit& visit : tiles[tile].visits)
-                    work(next_[part * groups_ + (visit.leaf >> bits_)],
-                         BinnedBlock{std::uint32_t(tile), visit.block, visit.leaf});
+                    work(visit.leaf >> group_bits_, BinnedBlock{std::uint32_t(tile), visit.block, visit.leaf});
         };
-        next_.assign(parts * groups_, 0);
+        sorted_.start(parts, groups_);
         executor(parts, [&](std::size_t part) {
-            for_each_visit(part, [](std::size_t& visits, const BinnedBlock&) { ++visits; });
+            for_each_visit(part, [&](std::size_t group, const BinnedBlock&) { sorted_.count(part, group); });
         });
-        begin_.resize(groups_ + 1);
-        std::size_t sum = 0;
-        for (std::size_t group = 0; group < groups_; ++group) {
-            begin_[group] = sum;
-            for (std::size_t part = 0; part < parts; ++part)
-                sum += std::exchange(next_[part * groups_ + group], sum);
-        }
-        begin_[groups_] = sum;
-        bins_.resize(sum);
+        sorted_.make_room();
         executor(parts, [&](std::size_t part) {
-            for_each_visit(part, [this](std::size_t& next, const BinnedBlock& binned) { bins_[next++] = binned; });
+            for_each_visit(part,
+                           [&](std::size_t group, const BinnedBlock& binned) { sorted_.put(part, group, binned); });
         });
     }
 
 private:
-    unsigned bits_;
+    unsigned group_bits_; ///< logarithm to base 2 of the number of leaves in a group
     std::size_t groups_;
-    std::vector<BinnedBlock> bins_;
-    std::vector<std::size_t> begin_; ///< of each group in the bins, and their end
-    std::vector<std::size_t> next_;  ///< by part, then group: where its next visit goes
+    CountingSort<BinnedBlock> sorted_; ///< by group
 };
 
 } // namespace nephroid::detail

@@ -15,21 +15,21 @@
 
 namespace nephroid {
 
-/// Adds a lamp's caustics to the sums, as sheets between photons: for lamps with charts, and scenes whose paths are a
-/// function of where they begin.
+/// Adds a lamp's caustics to the sums, as sheets between photons: for lamps with charts, and scenes that draw no random
+/// numbers, so that a path follows from where it begins.
 ///
 /// @param scene      as for `caustics`; `SheetAccount::by_chance` counts where it asked for a random number
 /// @param light      one light or a set
 /// @param sums       what is added to
 /// @param pass       about `count` photons are traced in all: a sixteenth as a pilot, the others as corners of cells,
 ///                   the regular ones first, then those of cells that are split. Where sheets end within cells a few
-///                   more look for where. Of a part of a picture (`total` larger than `count`) this is a whole
-///                   picture, weighted by its part: each of its passes has the same `count`, and `first` a multiple
-///                   of it
-/// @param options    how finely
+///                   more look for where. A pass that is a part of a picture (`total` above `count`) draws the whole
+///                   picture, with the weight count / total: all of its passes must have the same `count`, and `first`
+///                   must be a multiple of it
+/// @param options    how finely sheets are drawn
 /// @param executor   the sums do not depend on it, bit for bit
 /// @param take_over  take_over(chart, rectangle): called for each part of a chart whose sheets are too broken to be
-///                   drawn, from the calling thread; none of the light that leaves there is in the sums then
+///                   drawn, from the calling thread; then no light that is emitted there is in the sums
 /// Throws std::invalid_argument for a pass or options that make no sense, and if the executor leaves tasks out.
 /// @return  what became of the light. Nothing is drawn of a lamp that has no charts, see `without_charts`
 template <class S, class L, Vector3 V, Flux F, class R, class E = SerialExecutor, class TakeOver = DrawBroken>

@@ -12,7 +12,7 @@
 
 namespace nephroid::detail {
 
-/// Light on a patch: a cell whose four photons went the same way.
+/// Light on a patch: a cell whose four photons took the same path.
 template <Vector3 V, Flux F>
 struct LitPatch {
     PatchCorners corners;
@@ -21,14 +21,14 @@ struct LitPatch {
     F flux;
 };
 
-/// Between values at the corners, [i][j] at u = i, v = j.
+/// Interpolates between values at the corners, [i][j] at u = i, v = j.
 [[nodiscard]] inline Double3 bilinear(const std::array<std::array<Double3, 2>, 2>& at, double u, double v) {
     return (1 - v) * ((1 - u) * at[0][0] + u * at[1][0]) + v * ((1 - u) * at[0][1] + u * at[1][1]);
 }
 
 /// How a patch lies on its receiver.
 struct PatchSag {
-    double sag;       ///< how far corners lie above the tangent planes of others, the furthest
+    double sag;       ///< the largest distance of a corner from another corner's tangent plane
     double curvature; ///< 2 sag over the square of the longer diagonal
 
     template <Vector3 V, Flux F>
@@ -44,7 +44,7 @@ struct PatchSag {
     }
 
     /// How near to a quad a vertex must be to lie on its surface, world units: a fiftieth of a pixel where the receiver
-    /// is flat, so that shelves stay apart; what it bends by over a quad and a pixel besides.
+    /// is flat, so that shelves stay apart, and in addition how much it bends over a quad and over a pixel.
     [[nodiscard]] double thickness(double pixel, unsigned quads) const {
         return pixel / 50 + 2 * sag / quads + (std::min)(4 * curvature * pixel * pixel, pixel / 2);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Nine nodes of a chart about four cells: whether one sheet goes through them, and how well a patch says where.
+/// @file  The nine nodes of a block of 2 × 2 cells: whether one sheet goes through them all, and how well a patch
+///        through the corners predicts the others.
 #pragma once
 
 #include "nephroid/sheet/cell_tangents.hpp"
@@ -12,7 +13,7 @@
 
 namespace nephroid::detail {
 
-/// Ends by row, then column.
+/// The nodes' ends, by row and column.
 template <Vector3 V, Flux F>
 using NodeBlock = std::array<std::array<NodeEnds<V, F>, 3>, 3>;
 
@@ -63,7 +64,7 @@ template <Vector3 V, Flux F>
     return true;
 }
 
-/// Of a block's patch.
+/// How far a block's patch misses, and how large it is.
 struct Miss {
     double furthest = 0, size = 0; ///< world units; size: the patch's longest side
 };

@@ -40,7 +40,7 @@ template <Vector3 V, Flux F>
 /// With d from one to the other, d · n has opposite signs at the two ends of an arc and cancels to third order; across
 /// a step it has the same.
 ///
-/// @param pixel  pixel() -> the receiver's there, world units: asked where it matters
+/// @param pixel  pixel() -> a pixel's side there, world units; called only where it matters
 template <Vector3 V, Flux F, class Pixel>
 [[nodiscard]] bool are_joined(const NodeEnd<V, F>& a, const NodeEnd<V, F>& b, const Pixel& pixel) {
     using T = scalar_t<V>;

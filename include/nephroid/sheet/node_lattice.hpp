@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Nodes of a chart by whole numbers: the regular ones of a sector, and those that a tile adds between them.
+/// @file  The nodes of a chart, found by their integer places: the regular ones of a sector, and those that a tile adds
+///        between them.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -16,7 +17,7 @@
 
 namespace nephroid::detail {
 
-/// The regular nodes of a range of cells and of a ring of two about it, traced by several threads.
+/// The regular nodes of a range of cells and of a ring of two cells around it, traced by several threads.
 template <Vector3 V, Flux F>
 class NodeGrid {
 public:
@@ -25,8 +26,8 @@ public:
 
     /// How many tasks `fill` gives to its executor.
     [[nodiscard]] static std::size_t tasks_of(const Lattice& lattice, const CellRange& cells) {
-        const auto strips = [](std::int64_t nodes) { return std::size_t((nodes + width - 1) / width); };
-        return strips(columns_of(lattice, cells)) * strips(rows_of(lattice, cells));
+        const auto squares = [](std::int64_t nodes) { return std::size_t((nodes + width - 1) / width); };
+        return squares(columns_of(lattice, cells)) * squares(rows_of(lattice, cells));
     }
 
     /// @param trace  trace(place, ends, task): appends the ends of a node; called from several threads
@@ -39,7 +40,7 @@ public:
         columns_ = columns_of(lattice, cells);
         rows_ = rows_of(lattice, cells);
         ranges_.assign(std::size_t(columns_ * rows_), {});
-        // Strips of rows: neighbours one after the other, as their rays meet the same things.
+        // In squares, so that neighbours are traced one after the other: their rays meet the same things.
         const auto tasks_across = std::size_t((columns_ + width - 1) / width),
                    tasks = tasks_across * std::size_t((rows_ + width - 1) / width);
         if (pools_.size() < tasks)
@@ -58,7 +59,7 @@ public:
         });
     }
 
-    /// Whether a place is one of a regular node of this range.
+    /// Whether a regular node of this range is at a place.
     [[nodiscard]] bool has(const LatticePlace& p) const {
         if (((p.i | p.j) & (step_ - 1)) != 0)
             return false;
@@ -93,7 +94,7 @@ private:
     std::vector<std::vector<Node>> pools_;
 };
 
-/// The nodes that one tile sees: those of the grid, and its own, traced when they are first asked for.
+/// The nodes that one tile uses: those of the grid, and its own, which are traced when they are first asked for.
 template <Vector3 V, Flux F, class Trace>
 class NodeCache {
 public:
@@ -103,7 +104,7 @@ public:
     NodeCache(const NodeGrid<V, F>& grid, const Lattice& lattice, Trace trace)
         : grid_(grid), lattice_(lattice), trace_(std::move(trace)) {}
 
-    /// The ends of a node, which is traced if it was not; none beyond the chart.
+    /// The ends of a node, which is traced if it has not been; none beyond the chart.
     [[nodiscard]] NodeEnds<V, F> at(const LatticePlace& p) {
         if (!is_inside(p))
             return {};
@@ -146,7 +147,7 @@ private:
     const NodeGrid<V, F>& grid_;
     const Lattice& lattice_;
     Trace trace_;
-    std::unordered_map<std::uint64_t, std::vector<Node>, Scatter> own_; ///< its elements stay where they are
+    std::unordered_map<std::uint64_t, std::vector<Node>, Scatter> own_; ///< spans of its elements stay valid
 };
 
 } // namespace nephroid::detail

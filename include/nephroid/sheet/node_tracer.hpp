@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Traces the photon of a point of a chart: all its paths, to where they end.
+/// @file  Traces the photon of a point of a chart along all of its paths, to where they end.
 #pragma once
 
 #include "nephroid/emission/chart/emission_chart.hpp"
@@ -13,8 +13,8 @@
 
 namespace nephroid::detail {
 
-/// Gives a scene a number where it asks for chance, and notes that it did: its paths are then no function of where
-/// they begin.
+/// Stands in for random numbers: gives a scene a constant, and notes that it asked, as its paths then do not follow
+/// from where they begin.
 struct NoChance {
     bool is_asked = false;
 
@@ -25,7 +25,7 @@ struct NoChance {
     }
 };
 
-/// Visits every end of a photon's ways.
+/// A visitor that is told every end of a photon's paths.
 template <Vector3 V, Flux F, class Land>
 struct EndsOfAllWays {
     using trail = PathSignature;
@@ -38,13 +38,13 @@ struct EndsOfAllWays {
     }
 };
 
-/// What tracing nodes found beside their ends.
+/// What is counted while nodes are traced.
 struct TracedNodes {
     Statistics account;          ///< of the nodes' shares of the light
     double landed = 0;           ///< flux of those shares that ended on a receiver
     std::uint64_t by_chance = 0; ///< nodes whose scene drew a random number
 
-    /// Books a photon whose flux was a density, as that of an area of the chart.
+    /// Books a photon whose flux is a density, times the area of the chart that it stands for.
     void add(const Statistics& one, double landed_density, double area) {
         account.rays += one.rays;
         account.specular_events += one.specular_events;

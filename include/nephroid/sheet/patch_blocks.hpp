@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A patch of light becomes blocks of flat quads, those near the receiver's vertices.
+/// @file  Divides a patch of light into blocks of flat quads, and keeps those near vertices of the receiver.
 #pragma once
 
 #include "nephroid/sheet/block_edges.hpp"
@@ -18,7 +18,7 @@
 
 namespace nephroid::detail {
 
-/// Cuts patches up. Keeps no state but scratch memory.
+/// Divides patches. Keeps no state but scratch memory.
 template <Vector3 V, Flux F>
 class PatchBlocks {
 public:
@@ -26,9 +26,11 @@ public:
 
     PatchBlocks(const ReceiverPixels<V>& pixels, const Tessellation& rule) : pixels_(pixels), rule_(rule) {}
 
-    /// @param tolerance  by which the rule's tolerances grow where light is dim, >= 1
-    /// @param visit  visit(leaf, block number): for every leaf of the receiver that a block of it may light
-    /// @return  whether there was one
+    /// Adds the blocks of a patch.
+    ///
+    /// @param tolerance  factor of the rule's tolerances where light is dim, >= 1
+    /// @param visit      visit(leaf, block number): called for every leaf of the receiver that a block may light
+    /// @return  whether there is such a leaf
     template <class Visit>
     bool add(const LitPatch<V, F>& patch, double tolerance, SheetPieces<V, F>& pieces, const Visit& visit) {
         const PatchSag sag(patch);
@@ -36,7 +38,7 @@ public:
         const Box<double> reach =
             grown(bounds_of(patch.corners),
                   2 * sag.sag + 0.02 * most + (std::min)(4 * sag.curvature * most * most, most / 2));
-        if (!leaves_in(reach))
+        if (!find_leaves(reach))
             return false;
         const Double3 normal =
             unit_or_zero((patch.normal[0][0] + patch.normal[0][1]) + (patch.normal[1][0] + patch.normal[1][1]));
@@ -61,14 +63,14 @@ public:
         return is_seen;
     }
 
-    /// A flat triangle by itself: of what is left of a cut cell.
+    /// Adds a single flat triangle, a part of a cut cell.
     template <class Visit>
     bool add_triangle(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
                       double thickness, SheetPieces<V, F>& pieces, const Visit& visit) {
         Box<double> box = box_about(corners[0]);
         for (const Double3& c : corners)
             include(box, c);
-        if (!leaves_in(grown(box, thickness)))
+        if (!find_leaves(grown(box, thickness)))
             return false;
         thickness_ = thickness > 0 ? thickness : pixel_ / 50;
         return add_loose(corners, normal, direction, flux, pieces, visit);
@@ -79,8 +81,8 @@ private:
         unsigned begin, end;
     };
 
-    /// Finds the leaves that a box reaches, and the smallest pixel there.
-    bool leaves_in(const Box<double>& box) {
+    /// Finds the leaves whose footprints a box may overlap, and the smallest pixel there.
+    bool find_leaves(const Box<double>& box) {
         leaves_.clear();
         T pixel = std::numeric_limits<T>::infinity();
         pixels_.visit_leaves(narrowed_box<T>(box), [&](std::uint32_t leaf) {
@@ -91,7 +93,7 @@ private:
         return !leaves_.empty();
     }
 
-    /// Whether a block may reach the receiver's bounds.
+    /// Whether a block may overlap the receiver's bounds.
     [[nodiscard]] bool touches(const HermitePatch& surface, const Range& u, const Range& v, unsigned m,
                                double bulge) const {
         const auto low = surface.curve_at(double(v.begin) / m), high = surface.curve_at(double(v.end) / m);
@@ -127,7 +129,7 @@ private:
             block.middle[axis] = T(0.5 * (box.low[axis] + box.high[axis]));
         const Double3 middle{double(block.middle[0]), double(block.middle[1]), double(block.middle[2])};
         const Frame<Double3> plane = frame_about(normal);
-        // Rounded once, and shared: what one quad loses its neighbour gets.
+        // Corners are rounded once and shared, so that light that one quad loses its neighbour gains.
         for (std::size_t j = 0; j <= grid.rows; ++j)
             for (std::size_t i = 0; i <= grid.columns; ++i) {
                 const Double3 c = grid.corner[j][i] - middle;
@@ -149,16 +151,17 @@ private:
         });
         block.edges = edges.append_to(pieces.edges);
         block.doubtful = T(17) * std::numeric_limits<T>::epsilon() * T(edges.largest());
-        return !block.edges.empty() ? pass_on(block, pieces, visit) : is_seen;
+        return !block.edges.empty() ? add_if_near(block, pieces, visit) : is_seen;
     }
 
-    /// Lies every leaf beside the box?
+    /// Whether a box overlaps one of the leaves found.
     [[nodiscard]] bool may_light(const Box<double>& box) const {
         const Box<T> reach = narrowed_box<T>(box);
         return std::any_of(leaves_.begin(), leaves_.end(),
                            [&](std::uint32_t leaf) { return pixels_.leaves()[leaf].box.overlaps(reach); });
     }
 
+    /// Adds a triangle with too little area for a density.
     template <class Visit>
     bool add_loose(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
                    SheetPieces<V, F>& pieces, const Visit& visit) {
@@ -174,11 +177,12 @@ private:
         block.direction = make_vector<V>(T(direction.x), T(direction.y), T(direction.z));
         block.triangle = std::uint32_t(pieces.triangles.size());
         pieces.triangles.push_back(corners);
-        return pass_on(block, pieces, visit);
+        return add_if_near(block, pieces, visit);
     }
 
+    /// Keeps a block if it overlaps one of the leaves found, and visits these leaves.
     template <class Visit>
-    bool pass_on(const SheetBlock<V, F>& block, SheetPieces<V, F>& pieces, const Visit& visit) const {
+    bool add_if_near(const SheetBlock<V, F>& block, SheetPieces<V, F>& pieces, const Visit& visit) const {
         const auto number = std::uint32_t(pieces.blocks.size());
         bool is_seen = false;
         for (const std::uint32_t leaf : leaves_)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Boxes about patches, in double.
+/// @file  Boxes around patches, in double precision.
 #pragma once
 
 #include "nephroid/sheet/hermite_patch.hpp"
@@ -11,10 +11,10 @@
 
 namespace nephroid::detail {
 
-/// About one place.
+/// The box of a single point.
 [[nodiscard]] inline Box<double> box_about(const Double3& p) { return {{p.x, p.y, p.z}, {p.x, p.y, p.z}}; }
 
-/// Widens a box to hold a place.
+/// Enlarges a box to hold a point.
 inline void include(Box<double>& box, const Double3& p) {
     const std::array<double, 3> c{p.x, p.y, p.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -34,7 +34,7 @@ template <Scalar T>
     return {{T(box.low[0]), T(box.low[1]), T(box.low[2])}, {T(box.high[0]), T(box.high[1]), T(box.high[2])}};
 }
 
-/// About the control points of the patch as a Bézier surface: it lies in their hull.
+/// The box of a patch's control points as a Bézier surface: the patch lies in their convex hull.
 [[nodiscard]] inline Box<double> bounds_of(const PatchCorners& c) {
     const Double3& first = c[0][0].position;
     Box<double> box = box_about(first);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  A few photons ahead of the others: how bright the picture is, and whether its light wants a grid as fine in
-///        one place as in another.
+/// @file  A coarse grid of photons, traced before the others: it tells how bright the picture is, and how many photons
+///        should make the regular grid and how many should refine it.
 #pragma once
 
 #include "nephroid/sheet/block_need.hpp"
@@ -15,12 +15,12 @@
 
 namespace nephroid::detail {
 
-/// What a pilot grid says of the light.
+/// What a pilot grid tells of the light.
 struct PilotResult {
     Brightness brightness;
-    double regular_share = 1;    ///< of the photons that are to lie on the regular grid; the others refine it
-    std::uint64_t nodes = 0;     ///< that it took
-    std::uint64_t by_chance = 0; ///< of those that asked for a random number
+    double regular_share = 1;    ///< of the photons, for the regular grid; the others refine it
+    std::uint64_t nodes = 0;     ///< traced
+    std::uint64_t by_chance = 0; ///< of them, those whose scene drew a random number
 };
 
 /// Traces the pilot grids of a lamp's charts.
@@ -32,7 +32,7 @@ public:
     PilotGrid(const S& scene, const ReceiverPixels<V>& pixels, const Refinement& rule, const WalkLimits& limits)
         : scene_(scene), pixels_(pixels), rule_(rule), limits_(limits) {}
 
-    /// @param count  photons of the whole pass: a sixteenth as many are traced here, on four charts at most
+    /// @param count  photons of the whole pass: a sixteenth as many are traced here, on at most four of the charts
     template <class E>
     [[nodiscard]] PilotResult operator()(const EmissionCharts<V, F>& charts, std::uint64_t count, E& executor) {
         double power = 0;
@@ -45,12 +45,13 @@ public:
         PilotResult result;
         for (std::size_t k = 0; k < looked_at; ++k) {
             const EmissionChart<V, F>& chart = charts[k * charts.size() / looked_at];
-            // Of the grid that all photons would make, were it regular: how many times smaller its cells are.
+            // How many times smaller the cells of a regular grid of all photons would be.
             const double finer = std::sqrt((std::max)(double(count) * chart.power / power / pilots, 1.0));
-            look_at(chart, lattice_of(chart, pilots, 1, 0), executor, result, [&](double flux, const BlockNeed& need) {
-                seen += flux;
-                wanted += photons_on_finer(need, finer);
-            });
+            visit_blocks(chart, lattice_of(chart, pilots, 1, 0), executor, result,
+                         [&](double flux, const BlockNeed& need) {
+                             seen += flux;
+                             wanted += photons_on_finer(need, finer);
+                         });
             power_seen += chart.power;
         }
         if (power_seen > 0 && pixels_.area() > 0)
@@ -61,7 +62,7 @@ public:
     }
 
 private:
-    /// How many photons a block would want beside those of a grid whose cells are smaller by a factor.
+    /// How many photons a block would need in addition to those of a grid whose cells are smaller by a factor.
     [[nodiscard]] double photons_on_finer(BlockNeed need, double factor) const {
         const double blocks = need.is_broken ? factor : square(factor); // along a line, or all of them
         need.ratio = need.ratio / float(need.is_broken ? factor : factor * square(factor));
@@ -69,8 +70,8 @@ private:
     }
 
     template <class E, class Visit>
-    void look_at(const EmissionChart<V, F>& chart, const Lattice& lattice, E& executor, PilotResult& result,
-                 const Visit& visit) {
+    void visit_blocks(const EmissionChart<V, F>& chart, const Lattice& lattice, E& executor, PilotResult& result,
+                      const Visit& visit) {
         const CellRange all{0, lattice.cells_u, 0, lattice.cells_v};
         std::vector<TracedNodes> traced(grid_.tasks_of(lattice, all));
         const auto trace = [&](const LatticePlace& place, std::vector<NodeEnd<V, F>>& ends, std::size_t task) {

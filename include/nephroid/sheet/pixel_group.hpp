@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A few vertices with their pixels' footprints, as light is added to them.
+/// @file  Vertices in groups of up to sixteen, with their pixel footprints, as light is added to them.
 #pragma once
 
 #include "nephroid/tree/box.hpp"
@@ -39,22 +39,22 @@ struct PixelLeaf {
     std::uint32_t first, size;
     Box<T> box;             ///< about its footprints; empty where they have no extent
     std::array<T, 3> reach; ///< how far a footprint goes from its vertex along each axis, the largest
-    T pixel, largest;       ///< the roots of the smallest and the largest footprint's area
+    T pixel, largest;       ///< sides of the smallest and of the largest pixel: roots of the footprints' areas
     T area;                 ///< of all its footprints
 };
 
-/// How many of n vertices come first where more than sixteen are parted in two.
+/// How many of n vertices, more than sixteen, come into the first of two parts.
 [[nodiscard]] constexpr std::size_t first_part(std::size_t n) {
     constexpr std::size_t most = PixelGroup<float>::most;
     return (std::min)(((n + most - 1) / most + 1) / 2 * most, n / 2 + most / 2);
 }
 
-/// Into how many groups n vertices are parted.
+/// Into how many groups n vertices are divided.
 [[nodiscard]] constexpr std::uint32_t groups_in(std::size_t n) {
     return n <= PixelGroup<float>::most ? 1 : groups_in(first_part(n)) + groups_in(n - first_part(n));
 }
 
-/// Parts the vertices of a leaf across the longest side of their box until sixteen are left.
+/// Divides the vertices of a leaf across the longest side of their box, until no part has more than sixteen.
 template <Scalar T>
 class LeafParts {
 public:
@@ -95,8 +95,8 @@ private:
                 lowest = low;
             }
         }
-        // By rank, as all pairs are compared without a branch. Coordinates to a part in 2²⁴ of the width, made
-        // different by where they stand.
+        // Sorted by rank: comparing all pairs needs no branch. Keys are coordinates to a part in 2²⁴ of the width;
+        // equal ones are told apart by their order.
         std::array<std::int32_t, most> key{}, rank{};
         const float width = float(widest), scale = width > 1e-30f && width < 1e30f ? 16777215.0f / width : 0.0f;
         for (std::size_t i = 0; i < slots.size(); ++i)

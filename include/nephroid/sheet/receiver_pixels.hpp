@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  A receiver's vertices as sheets see them: each with its pixel's footprint, sixteen neighbours together.
+/// @file  A receiver's vertices in the layout in which sheets are drawn onto them: groups of up to sixteen neighbours,
+///        with bounds of their pixel footprints.
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
@@ -22,8 +23,8 @@ namespace nephroid {
 
 namespace detail {
 
-/// The places of a receiver's vertices, laid out anew for drawing: 16 bytes a vertex in float. What else is to be known
-/// of a vertex is worked out where light falls on it.
+/// The positions of a receiver's vertices, copied into groups for drawing: 16 bytes per vertex in float. What else is
+/// read of a vertex is computed where light falls on it (`record`).
 template <Vector3 V>
 class ReceiverPixels {
 public:
@@ -37,12 +38,12 @@ public:
         std::uint32_t groups = 0;
         leaves_.reserve(tree.leaves().size());
         for (std::size_t node = 0; node < tree.nodes().size(); ++node) {
-            if (tree.nodes()[node].leaf == no_leaf) // leaves follow each other as their nodes do
+            if (tree.nodes()[node].leaf == no_leaf) // leaves are in the order of their nodes
                 continue;
             const std::uint32_t size = groups_in(tree.leaves()[leaves_.size()].size);
             std::array<T, 3> reach = map.node(std::uint32_t(node)).reach;
             for (T& along : reach)
-                along = T(1.01) * along; // the places' rounding is far below a hundredth
+                along = T(1.01) * along; // positions are rounded by far less than a hundredth
             leaves_.push_back({groups, size, empty_box<T>(), reach, far_away, T(0), T(0)});
             groups += size;
         }
@@ -64,7 +65,7 @@ public:
         return groups().subspan(leaves_[leaf].first, leaves_[leaf].size);
     }
 
-    /// Of the vertex in a slot of the tree, which lies in this leaf.
+    /// What is read of the vertex in a slot of the tree; the slot must be in the leaf.
     [[nodiscard]] PixelRecord<T> record(std::uint32_t leaf, std::size_t slot) const {
         using t = vector_traits<V>;
         const auto& tree = view_.tree();
@@ -82,18 +83,19 @@ public:
         return record;
     }
 
-    /// About all footprints; low > high where there are none.
+    /// The box around all footprints; low > high if there are none.
     [[nodiscard]] const Box<T>& bounds() const { return bounds_; }
 
-    /// Calls visit(leaf) for every leaf with footprints that the box may reach, in the tree's order.
+    /// Calls visit(leaf) for every leaf with a footprint that the box may overlap, in the tree's order.
     template <class Visit>
     void visit_leaves(const Box<T>& box, Visit&& visit) const {
         view_.visit_footprints(box, visit);
     }
 
-    /// Of all footprints, world units squared.
+    /// The area of all footprints, world units squared.
     [[nodiscard]] double area() const { return area_; }
 
+    /// The side of the largest pixel, world units: the root of its footprint's area.
     [[nodiscard]] double largest_pixel() const { return largest_pixel_; }
 
     /// The side of a pixel around a place relative to the tree's origin, world units; the receiver must not be empty.
@@ -126,7 +128,7 @@ private:
         });
     }
 
-    /// The sizes of a leaf's footprints.
+    /// Sets the sizes of a leaf's footprints.
     void measure(std::size_t number, PixelLeaf<T>& leaf) const {
         const TreeLeaf range = map_->tree().leaves()[number];
         if (!map_->has_footprints()) {

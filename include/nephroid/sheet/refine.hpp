@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where more photons are needed: blocks of 2 × 2 cells are split until their patches say where light lands.
+/// @file  Adds photons where they are needed: blocks of 2 × 2 cells are split until their patches predict well enough
+///        where light lands.
 #pragma once
 
 #include "nephroid/sheet/block_need.hpp"
@@ -12,30 +13,30 @@
 
 namespace nephroid::detail {
 
-/// Splits the blocks of one tile, the coarse ones first and among those the ones in most need.
+/// Splits the blocks of one tile, the coarse ones first, and of equally coarse ones those with the largest errors.
 ///
 /// @tparam Nodes  NodeCache
 template <Vector3 V, Flux F, class Nodes>
 class BlockRefiner {
 public:
-    /// @param tile        of whose blocks the finer nodes are known
-    /// @param most_nodes  that may be added to the regular ones
+    /// @param tile        where the tile lies: finer nodes are known only in it
+    /// @param most_nodes  how many nodes may be added to the regular ones
     BlockRefiner(const BlockNeeds<V, F>& needs, Nodes& nodes, const LatticeRange& tile, std::size_t most_nodes)
         : needs_(needs), nodes_(nodes), tile_(tile), most_nodes_(most_nodes) {}
 
     /// Appends the cells of blocks, or of what they are split into.
     ///
-    /// @param blocks  of one size
+    /// @param blocks  all of one size
     void refine(std::vector<Cell> blocks, std::vector<Cell>& cells) {
         std::vector<BlockNeed> needs;
         while (!blocks.empty()) {
-            look_at(blocks, needs);
+            measure(blocks, needs);
             blocks = split(blocks, needs, cells);
         }
     }
 
-    /// Splits blocks none of whose nodes met anything, but into which a sheet reaches from beside them, between their
-    /// nodes. To be called when all blocks have been refined.
+    /// Splits empty blocks, none of whose nodes met anything, if a sheet reaches into them between their nodes. To be
+    /// called after all blocks have been refined.
     void refine_empty(std::vector<Cell>& cells) {
         for (bool is_done = false; !is_done;) {
             is_done = true;
@@ -51,17 +52,17 @@ public:
         }
     }
 
-    /// Blocks that were not split as the tile had too many nodes.
+    /// How many blocks were not split because the tile had too many nodes.
     [[nodiscard]] std::uint64_t capped() const { return capped_; }
 
 private:
     static constexpr std::int64_t finest = std::int64_t(1) << Lattice::bisections; ///< step of a cell
 
-    /// Takes out the empty ones, and says of the others how much they need to be split.
-    void look_at(std::vector<Cell>& blocks, std::vector<BlockNeed>& needs) {
+    /// Moves empty blocks to `empty_`, and measures how much each of the others needs to be split.
+    void measure(std::vector<Cell>& blocks, std::vector<BlockNeed>& needs) {
         needs.clear();
         const auto known = [&](const LatticePlace& p) { return nodes_.known(p); };
-        const auto is_left = [&](const Cell& cell) {
+        const auto stays = [&](const Cell& cell) {
             // The corners of cells must be there, split or not.
             const auto block =
                 block_at<V, F>(cell.place, cell.step, [&](const LatticePlace& p) { return nodes_.at(p); });
@@ -76,12 +77,14 @@ private:
         };
         std::size_t left = 0;
         for (const Cell& cell : blocks)
-            if (is_left(cell))
+            if (stays(cell))
                 blocks[left++] = cell;
         blocks.resize(left);
     }
 
-    /// @return  the quarters of those that were split
+    /// Splits the blocks that need it most, as long as nodes are left; the other blocks' cells are appended to `cells`.
+    ///
+    /// @return  the quarters of the blocks that were split
     [[nodiscard]] std::vector<Cell> split(const std::vector<Cell>& blocks, const std::vector<BlockNeed>& needs,
                                           std::vector<Cell>& cells) {
         std::vector<std::size_t> order;
@@ -115,8 +118,9 @@ private:
         return quarters;
     }
 
-    /// Whether a node that was traced on a block's sides, for a finer neighbour, met something. Where a neighbour may
-    /// be another tile's, which is not known here, three nodes on each half of a side are traced.
+    /// Whether a sheet reaches into an empty block: whether a node on its sides that was traced for a finer neighbour
+    /// met something. If the neighbour is in another tile, whose finer nodes are not known here, and is lit, seven
+    /// nodes on the side between them are traced.
     [[nodiscard]] bool is_reached(const LatticePlace& place, std::int64_t step) {
         const LatticePlace along[2] = {{1, 0}, {0, 1}};
         for (std::size_t axis = 0; axis < 2; ++axis)

@@ -11,16 +11,16 @@
 
 namespace nephroid {
 
-/// When a block of cells is split. Light that no vertex sees is not.
+/// When blocks of cells are split. Those whose light no vertex sees never are.
 struct Refinement {
     unsigned levels = 6;     ///< times that a cell may be split into four, 0 to 10; 0: a regular grid
     double tolerance = 0.06; ///< by how much a patch may miss a photon between its corners, in pixels; > 0
-    double relative = 0.01;  ///< the same, of the patch's size: density is right where place is; > 0
+    double relative = 0.01;  ///< the same, over the patch's size, as errors in place are errors in density; > 0
 };
 
 namespace detail {
 
-/// A square of a chart, to be drawn; or by the step of its cells a block of 2 × 2.
+/// A cell of a chart: a square that is drawn. Also a block of 2 × 2 cells, by its first cell.
 struct Cell {
     LatticePlace place; ///< of its first corner
     std::int64_t step;  ///< of its sides
@@ -35,12 +35,12 @@ struct LatticeRange {
     }
 };
 
-/// How much more of an error dim light may have.
+/// How bright the picture is, which tells how much larger the errors of dim light may be.
 struct Brightness {
     double mean = 0; ///< irradiance of the whole picture, about; 0: not known
 
-    /// How many times larger the errors of a patch may be: the root of by how much its irradiance is below a tenth of
-    /// the mean, 1 to 8.
+    /// How many times larger the errors of a patch may be, 1 to 8: the square root of a tenth of the mean over its
+    /// irradiance.
     [[nodiscard]] double allowance(double irradiance) const {
         if (!(mean > 10 * irradiance))
             return 1;
@@ -50,13 +50,13 @@ struct Brightness {
 
 /// How much a block needs to be split.
 struct BlockNeed {
-    float ratio = 0;        ///< of its error to what is allowed; above 1 it should be
-    bool is_broken = false; ///< a sheet ends in it
+    float ratio = 0;        ///< its error over the allowed one; above 1 it should be split
+    bool is_broken = false; ///< whether a sheet ends in it
 
     [[nodiscard]] bool is_split() const { return ratio > 1; }
 
-    /// How many photons that takes, about: the miss of a smooth sheet's patches falls to an eighth by each level, and
-    /// along a line there are twice as many blocks.
+    /// About how many photons its splitting takes. On a smooth sheet each level reduces errors to an eighth. Where a
+    /// sheet ends, each level halves them, and has twice as many blocks along the line.
     [[nodiscard]] double photons(unsigned levels) const {
         if (!is_split())
             return 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  What light sheets say of themselves: how much is whole, cut, seen, and handed over.
+/// @file  The account of light sheets: how much light is seen, how much is on cut cells, and how much is handed over.
 #pragma once
 
 #include "nephroid/emission/flux.hpp"
@@ -19,11 +19,11 @@ struct SheetAccount {
     std::uint64_t capped = 0;       ///< blocks that should have been split, in tiles with too many nodes
     Tally seen;                     ///< on sheets that reach vertices
     Tally unseen;                   ///< on sheets that reach none
-    Tally cut;                      ///< of both: in cells in which a sheet ends
-    std::uint64_t broken_tiles = 0; ///< more than a third of whose light is in cells in which sheets end; if somebody
-                                    ///< takes them over, those too whose scene drew a random number
-    Tally broken;                   ///< light in those, if nobody took them over: it may be in the wrong place
-    Tally handed_over;              ///< light in those that somebody took over: none of it is drawn
+    Tally cut;                      ///< the part of both that is in cells in which a sheet ends
+    std::uint64_t broken_tiles = 0; ///< parts of a chart with more than a third of their light in cells in which sheets
+                                    ///< end; and, if broken parts are taken over, those whose scene drew random numbers
+    Tally broken;                   ///< light of these, if nobody takes them over: it may be in the wrong place
+    Tally handed_over;              ///< light of these, if they are taken over: none of it is drawn
 
     template <Flux F>
     void book(const F& flux, bool is_seen, bool is_cut) {

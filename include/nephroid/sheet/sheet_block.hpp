@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A few neighbouring quads of a patch of light, and how they are added to a vertex: edge by edge.
+/// @file  Blocks, a few neighbouring quads of a patch of light, and how they are added to a vertex: edge by edge.
 ///
 /// Each quad has a density w, its flux over its signed area. An edge between two quads is integrated once, weighted by
 /// the jump of density across it, as its two sides' integrals differ in sign alone:
@@ -33,16 +33,16 @@ struct SheetBlock {
     std::array<T, 3> middle;                ///< relative to the tree's origin
     std::array<T, 3> normal;                ///< unit, on the side that the light comes from
     T thickness;                            ///< vertices nearer to its plane than this are on its surface, world units
-    std::array<std::array<T, 3>, 2> across; ///< two unit vectors in its plane, across its sides; zero: not to be tested
-    std::array<T, 2> low, high;             ///< how far it reaches from the middle along those
+    std::array<std::array<T, 3>, 2> across; ///< unit vectors in its plane, across its sides; zero for a triangle
+    std::array<T, 2> low, high;             ///< how far it reaches from the middle along these
     T doubtful;                             ///< a sum below this may be rounding alone
     F flux;                                 ///< of the whole patch or triangle
     V direction;                            ///< of flight, unit, in the middle
-    std::span<const EdgeGroup<T>> edges;    ///< none: a triangle
-    std::uint32_t triangle;                 ///< its number
+    std::span<const EdgeGroup<T>> edges;    ///< none for a triangle
+    std::uint32_t triangle;                 ///< its index in SheetPieces
 };
 
-/// The corners of a triangle that goes by its area's share, relative to the tree's origin.
+/// The corners, relative to the tree's origin, of a triangle that is added by the share of its area in a footprint.
 using LooseTriangle = std::array<Double3, 3>;
 
 /// Blocks in the order in which they are added.

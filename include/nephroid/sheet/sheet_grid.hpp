@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How many cells each chart gets, and the order in which they are drawn: sectors, and tiles in them.
+/// @file  How many cells each chart gets, and the order in which they are drawn: by sectors, and in these by tiles.
 #pragma once
 
 #include "nephroid/emission/chart/emission_chart.hpp"
@@ -14,7 +14,7 @@
 
 namespace nephroid::detail {
 
-/// The cells of a chart: about square, even in number, of this many nodes at most.
+/// Divides a chart into cells: about square, even in number along each side, with this many nodes at most.
 ///
 /// @param stretch  cells are wider than they would be by this factor, and less high
 template <Vector3 V, Flux F>
@@ -45,7 +45,7 @@ template <Vector3 V, Flux F>
     return lattices;
 }
 
-/// A chart's cells in squares whose nodes are kept at a time.
+/// Divides a chart's cells into squares. Only the nodes of one of them are in memory at a time.
 [[nodiscard]] inline std::vector<CellRange> sectors_of(const Lattice& lattice) {
     constexpr std::int64_t side = 512;
     std::vector<CellRange> sectors;
@@ -62,7 +62,7 @@ inline constexpr std::int64_t tile_side = 16; ///< cells of a tile
     return across(lattice.cells_u) * across(lattice.cells_v);
 }
 
-/// A sector in tiles, along a Z-shaped curve [Morton 1966].
+/// Divides a sector into tiles, in the order of a Z-shaped curve [Morton 1966].
 [[nodiscard]] inline std::vector<CellRange> tiles_of(const CellRange& sector) {
     constexpr std::int64_t side = tile_side;
     const auto spread = [](std::uint32_t x) {

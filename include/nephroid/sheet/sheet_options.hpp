@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  How light sheets are made, and what is told of them.
+/// @file  How light sheets are made, and what is reported of them.
 #pragma once
 
 #include "nephroid/sheet/refinement.hpp"
@@ -19,7 +19,7 @@ namespace nephroid {
 struct SheetOptions {
     Tessellation tessellation{};
     Refinement refinement{};
-    std::size_t lamp_points = 64; ///< that stand for a lamp with extent, >= 1
+    std::size_t lamp_points = 64; ///< that stand for a lamp with area, >= 1
 };
 
 namespace detail {
@@ -47,13 +47,13 @@ NEPHROID_NOINLINE inline void check(const SheetOptions& options, const char* cal
 /// What became of the light, and of its sheets.
 struct SheetStatistics {
     Statistics light;          ///< emitted.flux is the sum over all fates and `unresolved`
-    SheetAccount sheets;       ///< how much is whole and cut
+    SheetAccount sheets;       ///< how much of it is on sheets, and how well they could be drawn
     double without_charts = 0; ///< power of lamps that have no charts: nothing is drawn of them
-    double unresolved = 0; ///< flux of nodes that landed less that of the sheets between them: what lies between nodes
-                           ///< and was not met, or was taken for more than it is
+    double unresolved = 0; ///< flux of the nodes that landed, minus that of the sheets between them: above 0 for light
+                           ///< that sheets miss, below 0 for light that they overestimate
 };
 
-/// Nobody takes over what is broken: it is drawn as well as may be, and counted.
+/// The default: nobody takes broken parts over. They are drawn as well as possible, and counted.
 struct DrawBroken {};
 
 } // namespace nephroid

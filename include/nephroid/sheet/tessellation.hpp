@@ -19,11 +19,11 @@ struct Tessellation {
 
 namespace detail {
 
-/// What the rule looks at.
+/// What the number of quads depends on.
 struct PatchShape {
-    double bend = 0;    ///< a quarter of the furthest that a tangent is from its chord, world units: d
-    double change = 0;  ///< of the signed area over the corners, of the largest: v
-    double longest = 0; ///< side, world units: e
+    double bend = 0;    ///< a quarter of the largest difference of a tangent and its chord, world units
+    double change = 0;  ///< of the signed area from corner to corner, over the largest
+    double longest = 0; ///< side, world units
 };
 
 /// @param normal  of the receiver, unit: areas are signed by it
@@ -49,7 +49,7 @@ struct PatchShape {
 /// The number of quads along each side: the same both ways, as the density across a fold needs both.
 ///
 /// @param pixel      the receiver's, world units, > 0
-/// @param tolerance  by which the tolerances grow where light is dim, >= 1
+/// @param tolerance  factor of the rule's tolerances where light is dim, >= 1
 [[nodiscard]] inline unsigned quads_along(const PatchShape& shape, const Tessellation& rule, double pixel,
                                           double tolerance) {
     const double by_bend = std::ceil(std::sqrt(shape.bend / (rule.bend * tolerance * pixel)));

@@ -9,12 +9,12 @@
 
 namespace nephroid::detail {
 
-/// A leaf of the receiver, and a block that it is to be lit by.
+/// A leaf of the receiver, and a block that may light it.
 struct BlockVisit {
     std::uint32_t leaf, block;
 };
 
-/// What a tile sends to the receiver, in the order of its cells.
+/// The pieces of a tile's sheets and the leaves that they may light, in the order of the tile's cells.
 template <Vector3 V, Flux F>
 struct TilePieces {
     SheetPieces<V, F> pieces;

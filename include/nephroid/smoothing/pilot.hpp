@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  The pilot: the first photons of a pass, traced before the others to choose all footprints from.
+/// @file  The pilot: the first photons of a picture, traced before the others. All footprints are chosen from them.
 #pragma once
 
 #include "nephroid/execution/task_runner.hpp"
@@ -47,7 +47,7 @@ struct Pilot {
     std::uint64_t first = 0; ///< index of the first photon
     std::vector<Photon> photons;
     std::vector<Statistics> accounts; ///< of each photon; added up as it is splatted, since a pass may be stopped
-    PathPieces<typename Photon::vector> pieces{}; ///< by which its photons have been told apart
+    PathPieces<typename Photon::vector> pieces{}; ///< into which its photons' paths are split
 
     [[nodiscard]] bool has(std::uint64_t index) const { return index >= first && index - first < photons.size(); }
     [[nodiscard]] Photon take(std::uint64_t index, Statistics& account) const {

@@ -14,7 +14,7 @@
 
 namespace nephroid::detail {
 
-/// For each quarter of the photons, the picture that it gives by itself at some of the vertices.
+/// For each quarter of the photons, the picture that it makes by itself, at some of the vertices.
 using QuarterPictures = std::array<std::vector<double>, 4>;
 
 /// Splats the quarters with any smoothing.

@@ -17,7 +17,7 @@
 
 namespace nephroid::detail {
 
-/// Whether footprints are to be shifted and sized by neighbouring photons, which needs tangents.
+/// Whether neighbouring photons are to shift and size the footprints, which needs tangents.
 template <class Policies, class L>
 inline constexpr bool is_second_order = Light<L>&& decltype(Policies::order)::uses_neighbours&&
     std::same_as<decltype(Policies::shape), DifferentialFootprint>;
@@ -56,6 +56,7 @@ template <class Footprints, class V, class F, class R, class Policies, class Pho
                            executor);
 }
 
+/// Splats the photons of a pass, each with the footprint and the shift that the pilot's photons around it determine.
 template <class S, class L, class V, class F, class R, class Policies, class Sequence, class E>
 Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
                                  const Policies& policies, const Sequence& sequence, E& executor) {
@@ -73,7 +74,7 @@ Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& 
             return pilot.take(pass.first + i, account);
         PathTrail<typename L::vector> trail;
         auto photon = trace_photon(scene, light, pass, sequence, pass.first + i, account, trail);
-        pilot.pieces.tell_apart(photon, trail.first());
+        pilot.pieces.assign_piece(photon, trail.first());
         return photon;
     };
     return splat_in_batches(

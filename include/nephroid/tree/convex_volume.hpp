@@ -10,7 +10,7 @@ namespace nephroid {
 /// The half space where normal · x <= offset.
 template <Scalar T>
 struct HalfSpace {
-    std::array<T, 3> normal; ///< outwards, of any length; 0 for all of space
+    std::array<T, 3> normal; ///< outwards, of any length; 0 if all of space is inside
     T offset;
 };
 

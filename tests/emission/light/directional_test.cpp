@@ -134,7 +134,7 @@ TEST_CASE("directional light: aiming at a sphere leaves the flux through it unch
     CHECK(flux_of(aimed, 10000, &target).value() == doctest::Approx(aimed.power()).epsilon(1e-12));
 }
 
-TEST_CASE("directional light: parameters that cannot be are refused") {
+TEST_CASE("directional light: parameters out of range are refused") {
     using V = glm::vec3;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const auto make = [](V direction, float irradiance, const BeamPatch<V>& patch) {

@@ -143,7 +143,7 @@ TEST_CASE("disk light: the direction changes continuously over the light") {
     }
 }
 
-TEST_CASE("disk light: parameters that cannot be are refused") {
+TEST_CASE("disk light: parameters out of range are refused") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const auto make = [](glm::vec3 centre, glm::vec3 normal, float radius, float radiance) {
         return Disk<float>({.centre = centre, .normal = normal, .radius = radius, .radiance = radiance});

@@ -108,7 +108,7 @@ TEST_CASE("mesh light: a closed mesh emits outwards as its sphere does") {
     check_same<double>(aimed, unaimed.value(), unaimed.error());
 }
 
-TEST_CASE("mesh light: parameters that cannot be are refused") {
+TEST_CASE("mesh light: parameters out of range are refused") {
     using V = glm::vec3;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const auto make = [](std::vector<Mesh<float>::Triangle> triangles, float radiance) {

@@ -70,7 +70,7 @@ TEST_CASE("point light: footprints cover the solid angle and start as points") {
     CHECK(1000 * footprint == doctest::Approx(9 * light.power() / 2).epsilon(1e-12));
 }
 
-TEST_CASE("point light: parameters that cannot be are refused with their name and value") {
+TEST_CASE("point light: parameters out of range are refused with their name and value") {
     using Point = PointLight<glm::vec3, float>;
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK_THROWS_WITH_AS(Point({.position = {nan, 0, 0}, .intensity = 1}),

@@ -68,7 +68,7 @@ TEST_CASE("quad light: it emits on the side of edge_u x edge_v from corner to co
     CHECK(length(D(photon.direction - D(0, 0, -1))) < 1e-15);
 }
 
-TEST_CASE("quad light: parameters that cannot be are refused") {
+TEST_CASE("quad light: parameters out of range are refused") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const auto make = [](glm::vec3 corner, glm::vec3 u, glm::vec3 v, float radiance) {
         return Quad<float>({.corner = corner, .edge_u = u, .edge_v = v, .radiance = radiance});

@@ -111,7 +111,7 @@ TEST_CASE("sphere light: aimed it emits from the normals that see the target and
     }
 }
 
-TEST_CASE("sphere light: parameters that cannot be are refused") {
+TEST_CASE("sphere light: parameters out of range are refused") {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     using Target = BoundingSphere<glm::vec3>;
     CHECK_NOTHROW(at_4<float>(1, std::nullopt));

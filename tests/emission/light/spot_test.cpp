@@ -89,7 +89,7 @@ TEST_CASE("spot light: a target that the light cannot reach gets photons without
     CHECK(flux_of(light, 1000).value() == 0);
 }
 
-TEST_CASE("spot light: parameters that cannot be are refused") {
+TEST_CASE("spot light: parameters out of range are refused") {
     const auto make = [](glm::vec3 axis, float inner, float outer, float intensity) {
         return Spot<float>(
             {.position = {0, 0, 0}, .axis = axis, .cos_inner = inner, .cos_outer = outer, .intensity = intensity});

@@ -34,7 +34,7 @@ bool starts_with(const std::string& text, const std::string& start) {
 
 } // namespace
 
-TEST_CASE("reference: a film that is no film is refused with the function's and the value's name") {
+TEST_CASE("reference: an impossible film is refused with the function's and the value's name") {
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     CHECK(starts_with(message_of([] {
                           (void)wave({}, {0, 1, 0, 1, 0, 4});

@@ -73,7 +73,7 @@ TEST_CASE("landings: two facets contradict tangents that are the same on both, b
 
 // Tangents that are off by e at every photon, to this side and that, lead a step of length d at most e d astray. Twice
 // that is let pass: of a facet whose part is p, tangents off by more than p / 2 say themselves that the map is rough.
-TEST_CASE("landings: what tangents scatter by is no contradiction") {
+TEST_CASE("landings: a miss that the tangents' scatter explains is no contradiction") {
     const double gap = 1, part = gap * std::sqrt(21.0 * 28) / 49 / std::sqrt(8.0);
     for (const double times : {0.49, 0.51}) {
         Landings landings;

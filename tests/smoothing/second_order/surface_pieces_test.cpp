@@ -63,7 +63,7 @@ TEST_CASE("surface pieces: smooth surfaces are whole") {
 }
 
 // 4000 points on a unit square are 0.016 apart.
-TEST_CASE("surface pieces: a step, an edge and a ball above a floor part them") {
+TEST_CASE("surface pieces: a step, an edge and a ball above a floor separate them") {
     check_halves(points_on([](double u, double v) {
                      return PlaceOnSurface{{u, v, u < 0.4 ? 0.01 : 0}, up};
                  }),
@@ -82,16 +82,16 @@ TEST_CASE("surface pieces: a step, an edge and a ball above a floor part them") 
                  [](const PlaceOnSurface& p) { return p.position.z > 0.5; });
 }
 
-TEST_CASE("surface pieces: another point is known by its neighbours or not at all") {
+TEST_CASE("surface pieces: a further point gets the piece of its neighbours or none") {
     const Pieces pieces(points_on([](double u, double v) {
                             return PlaceOnSurface{{u, v, u < 0.4 ? 0.5 : 0}, up};
                         }),
                         one_by_one);
     REQUIRE(pieces.sizes().size() == 2);
-    CHECK(pieces.piece_about({{0.7, 0.5, 0}, up}) == 0); // the larger one
-    CHECK(pieces.piece_about({{0.2, 0.5, 0.5}, up}) == 1);
-    CHECK(pieces.piece_about({{0.2, 0.5, 0.25}, up}) == Pieces::unknown);
-    CHECK(pieces.piece_about({{0.7, 0.5, 0}, {0, 0, -1}}) == Pieces::unknown);
+    CHECK(pieces.piece_at({{0.7, 0.5, 0}, up}) == 0); // the larger one
+    CHECK(pieces.piece_at({{0.2, 0.5, 0.5}, up}) == 1);
+    CHECK(pieces.piece_at({{0.2, 0.5, 0.25}, up}) == Pieces::unknown);
+    CHECK(pieces.piece_at({{0.7, 0.5, 0}, {0, 0, -1}}) == Pieces::unknown);
 }
 
 } // namespace nephroid::tests::surface_pieces_test

@@ -33,8 +33,8 @@ public:
 
     /// @param radiance  flux per area and steradian
     /// @param target    bounds of what the light is aimed at, if any
-    /// @param middle    the middle of the light and its normal there, around which the map from samples to directions
-    ///                  varies least
+    /// @param middle    the middle of the light and its normal there: directions as a function of the samples differ
+    ///                  least from those around it
     AreaEmission(const F& radiance, const std::optional<BoundingSphere<V>>& target, const LightPoint<V>& middle)
         : radiance_(radiance), target_(target), axis_(middle.normal) {
         if (target_) {
@@ -52,17 +52,17 @@ public:
     /// @param area    from which points are drawn, world units squared
     /// @param u1,u2   samples for the direction
     [[nodiscard]] Photon<V, F> emit(const LightPoint<V>& point, T area, T u1, T u2, const Spread<T>& spread) const {
-        const T area_share = area / spread.photons;
+        const T area_per_photon = area / spread.photons;
         if (const std::optional<Cone<V>> cone = aimed_cone(point.position)) {
             const V direction = direction_in(*cone, frame_turned_to(cone->axis), u1, u2);
             const T cosine = (std::max)(T(0), dot(direction, point.normal));
             const T solid_angle = cone->solid_angle();
-            return {point.position, direction, static_cast<F>(radiance_ * (cosine * solid_angle * area_share)),
+            return {point.position, direction, static_cast<F>(radiance_ * (cosine * solid_angle * area_per_photon)),
                     tangents(point.normal, direction, spread.length(area), spread.length(solid_angle))};
         }
         const V direction = cosine_direction(point.normal, frame_turned_to(point.normal), concentric_disk(u1, u2));
         const T solid_angle = pi<T> / dot(direction, point.normal); // 1 / density
-        return {point.position, direction, static_cast<F>(radiance_ * (pi<T> * area_share)),
+        return {point.position, direction, static_cast<F>(radiance_ * (pi<T> * area_per_photon)),
                 tangents(point.normal, direction, spread.length(area), spread.length(solid_angle))};
     }
 
@@ -82,7 +82,7 @@ public:
         });
     }
 
-    /// Estimates the flux of a light of this area from 64 of its points.
+    /// Estimates the power of a light of this area from 64 of its points.
     ///
     /// @param point  point(u1, u2) returns a point of the light
     template <class Points>
@@ -96,9 +96,9 @@ public:
 
     /// The domain of a light whose points lie within a sphere.
     ///
-    /// @param positions  how its positions are mapped
+    /// @param positions  kinks and edges of its positions' coordinates
     [[nodiscard]] EmissionDomain domain(const EmissionPair& positions, const V& centre, T radius) const {
-        // If only some points use the cone, the map jumps.
+        // If only some points aim at the target, directions jump between those that do and those that do not.
         const bool is_smooth = !target_ || aims_everywhere(centre, radius) || aims_nowhere(centre, radius);
         return {.coordinates = 4,
                 .kinks = {is_smooth ? positions.kinks : Kinks::unknown, Kinks::diagonals},

@@ -63,7 +63,8 @@ private:
                     LightPoint<V>{options.centre + options.radius * cap.axis, cap.axis}),
           power_(emission_.power(area_, [this](T u1, T u2) { return point(u1, u2); })) {}
 
-    /// The normals n for which a part of the target is above the tangent plane (y − centre) · n = radius.
+    /// The cone of the normals n for which a part of the target is above the tangent plane (y − centre) · n =
+    /// radius.
     [[nodiscard]] static Cone<V> validated_cap(const Options& options) {
         const detail::Validator validate("SphereLight");
         validate.finite("centre", options.centre);

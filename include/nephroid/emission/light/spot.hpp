@@ -78,9 +78,9 @@ public:
     /// The intensity in a unit direction over that on the axis, in [0, 1].
     /// Source: glTF extension KHR_lights_punctual, "Inner and outer cone angles".
     [[nodiscard]] T falloff(const V& direction) const {
-        const T height = T(0.5) * length2(V(direction - axis_)); // 1 − cos, without cancellation
-        const T share = (outer_height_ - height) / ring_height_;
-        return square((std::clamp)(share, T(0), T(1)));
+        const T height = T(0.5) * length2(V(direction - axis_));       // 1 − cos, without cancellation
+        const T across_ring = (outer_height_ - height) / ring_height_; // 0 at the outer cone, 1 at the inner one
+        return square((std::clamp)(across_ring, T(0), T(1)));
     }
 
     /// Exact without a target; otherwise estimated from 256 directions.

@@ -55,7 +55,8 @@ public:
         return std::sin(at.exit) + std::tan(at.direction) * (centre - std::cos(at.exit));
     }
 
-    /// (landing(i) + radius) times the cosine of the descent: the same sign, but finite for horizontal rays.
+    /// (landing(i) + radius) times the cosine of the descent. It is 0 where the ray lands at this radius behind the
+    /// axis, and finite for horizontal rays, whose landing is not.
     [[nodiscard]] double landing_behind(double i, double radius) const {
         const Path at = path(i);
         return (std::sin(at.exit) + radius) * std::cos(at.direction) +

@@ -128,7 +128,8 @@ template <ExecutorArgument E = ThreadExecutor>
     Image image = detail::blank(film, "ring");
     detail::check(ring);
 
-    // Light that is reflected many times creeps along the mirror: its chords beyond a number are taken together.
+    // Light that is reflected many times creeps along the mirror: its chords after the first `count` are taken
+    // together.
     const double side = (std::min)(film.pixel_width(), film.pixel_height());
     const bool any = ring.reflections == Reflections::any;
     const int count = any ? detail::Gallery::chords_before(detail::ring_reach, side) : 1;

@@ -11,7 +11,8 @@
 
 namespace nephroid::reference::detail {
 
-/// Light that first meets the mirror at phi near pi/2, close to (0, 1), and creeps along it.
+/// Light that first meets the mirror at phi near pi/2, close to (0, 1), and creeps along it as sound does along the
+/// wall of a whispering gallery.
 ///
 /// With q = cos^2(phi) / 2 and u in -1 to 1 along a chord, radius^2 = 1 - 2 q (1 - u^2), and the flux per dq and per
 /// length is 1 / sin(phi). It is assumed uniform over u and over an arc from phi clockwise, with an error of at most q.

@@ -9,8 +9,8 @@
 
 namespace nephroid::detail {
 
-/// The step from one photon of an area light to another, in position and in direction. The units are those parts of the
-/// half tangents.
+/// The step from one photon of an area light to another: in position, in units of the half tangents' displacements, and
+/// in direction, in units of their changes of direction.
 struct AreaStep {
     Plane2 position, direction;
 };

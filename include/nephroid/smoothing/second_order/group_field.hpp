@@ -95,10 +95,10 @@ public:
     }
 
 private:
-    /// Whether footprints of more area than the published ones were chosen in more than a quarter of the cells although
-    /// photons contradict the map there. Then none of the group's is trusted, since those of the cells between reach
-    /// into these. Smaller ones are no worse than the published where the map is wrong. With few cells each spans so
-    /// much of a smooth map that photons contradict it too: then nothing is concluded.
+    /// Whether photons contradict the map in more than a quarter of the cells, and the footprints there have more area
+    /// than the published ones. (Smaller ones are no worse than those where the map is wrong.) Then no footprint of the
+    /// group is trusted, since those of other cells reach into these. With few cells nothing is concluded: each spans
+    /// so much of a smooth map that photons contradict its fit as well.
     [[nodiscard]] bool are_shapes_contradicted() const {
         constexpr double most = 0.25;
         constexpr std::size_t fewest = 256;

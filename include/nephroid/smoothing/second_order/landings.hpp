@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file  Checks a map that was fitted to tangents against the places where photons landed.
 ///
-/// Tangents say nothing of jumps: on a flat facet of a mesh they hardly change, yet across its edge the light goes
-/// elsewhere. Places do. Where the tangents themselves scatter about the fit, footprints are already chosen smaller.
-/// Footprints rest on the fitted map: where places alone contradict it in many cells, none is chosen from it
+/// Tangents do not show jumps: on a flat facet of a mesh they hardly change, yet across its edge the light goes
+/// elsewhere. Places show them. If places contradict the map in many cells, no footprint is chosen from it. Tangents
+/// that scatter about the fit are no contradiction, because footprints are chosen smaller there already
 /// [include/nephroid/README.md, "Footprints from neighbours"].
 #pragma once
 
@@ -31,9 +31,9 @@ public:
     /// Whether the photons landed elsewhere than the map says.
     ///
     /// Only the point's own place is fitted to theirs. They contradict the map if they miss it by more than a part of
-    /// their distances from the point, and by more than twice what tangents that scatter as theirs do lead to.
-    /// Distances are taken from the tangents' length, not along the tangents, because at a fold the map takes some
-    /// steps nowhere.
+    /// their distances from the point, and by more than twice what the scatter of their tangents explains. Distances
+    /// follow from the tangents' lengths, not from the landing points, because at a fold the map takes some steps
+    /// nowhere.
     ///
     /// @param map           derivatives at the point, fitted to tangents
     /// @param largest_part  of the root mean square distance, >= 0

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// @file  Paths told apart by what the photons do, where the renderer's `surface` does not tell: it may have none, or
-///        name materials, or one object with edges and steps. Photons of one path are parted by the first surface that
-///        turned them, and by that on which they landed.
+/// @file  Splits paths by the smooth pieces of surface that photons meet, for renderers whose `surface` does not tell
+///        them apart: hits may have none, or one for all objects of a material, or one for an object with edges and
+///        steps. A path is split by the piece that its photons meet first, and by the piece that they land on.
 #pragma once
 
 #include "nephroid/execution/task_runner.hpp"
@@ -17,7 +17,7 @@
 
 namespace nephroid::detail {
 
-/// A path's signature, and the first surface that it met.
+/// A path's signature, and where it first met a surface.
 template <Vector3 V>
 class PathTrail : public PathSignature {
 public:
@@ -38,18 +38,17 @@ private:
     std::optional<PlaceOnSurface> first_;
 };
 
-/// What a pilot's photons say of where paths part.
+/// The pieces into which the paths of a pilot are split.
 template <Vector3 V>
 class PathPieces {
 public:
     using FirstPoints = std::vector<std::optional<PlaceOnSurface>>;
 
     PathPieces() = default;
-    /// Gives photons whose path is parted signatures of their own. Others keep theirs, and so do those on the largest
-    /// piece of each surface.
+    /// Splits the paths of photons: those on the largest pieces keep their signatures, the others get new ones.
     ///
     /// @param photons  TracedPhoton of one light or of several
-    /// @param firsts   where each was first turned
+    /// @param firsts   where each first met a surface
     template <class Photons>
     PathPieces(Photons& photons, const FirstPoints& firsts, const TaskRunner& run) {
         std::vector<std::array<double, 2>> samples;
@@ -57,12 +56,12 @@ public:
         for (const auto& photon : photons)
             samples.push_back(photon.sample.at);
         const EmissionCells cells(samples, 1, false);
-        std::vector<std::uint32_t> landed; // neighbours one after the other
+        std::vector<std::uint32_t> landed; // sorted so that consecutive ones are neighbours in the domain
         for (std::size_t n = 0; n < cells.size(); ++n) {
-            const std::size_t row = n / cells.columns(), column = n % cells.columns(); // there and back again
+            const std::size_t row = n / cells.columns(), column = n % cells.columns(); // every other row runs backwards
             const std::size_t cell = row % 2 == 0 ? n : (row + 1) * cells.columns() - 1 - column;
             for (const std::uint32_t i : cells.photons(cell))
-                if (photons[i].deposit && photons[i].sample.coordinates >= 2) // else it has no neighbours anyway
+                if (photons[i].deposit && photons[i].sample.coordinates >= 2) // others have no neighbours
                     landed.push_back(i);
         }
         std::stable_sort(landed.begin(), landed.end(),
@@ -75,8 +74,8 @@ public:
             Path path{key, pieces_of(begin, end, first_of, run), pieces_of(begin, end, landing_of, run)};
             for (auto i = begin; i != end; ++i) {
                 const auto place = std::size_t(i - begin);
-                photons[*i].signature = parted(key.second, path.by_first ? (*path.by_first)[place] : 0,
-                                               path.by_landing ? (*path.by_landing)[place] : 0);
+                photons[*i].signature = split_signature(key.second, path.by_first ? (*path.by_first)[place] : 0,
+                                                        path.by_landing ? (*path.by_landing)[place] : 0);
             }
             if (path.by_first || path.by_landing)
                 paths_.push_back(std::move(path));
@@ -84,17 +83,18 @@ public:
         }
     }
 
-    /// The same for a photon that was not of the pilot.
+    /// Gives a photon that is not of the pilot the signature of the pieces that it met.
     template <class Photon>
-    void tell_apart(Photon& photon, const std::optional<PlaceOnSurface>& first) const {
+    void assign_piece(Photon& photon, const std::optional<PlaceOnSurface>& first) const {
         if (paths_.empty() || !photon.deposit)
             return;
         const auto path = std::lower_bound(paths_.begin(), paths_.end(), key_of(photon),
                                            [](const Path& a, const Key& b) { return a.key < b; });
         if (path == paths_.end() || path->key != key_of(photon))
             return;
-        photon.signature = parted(photon.signature, path->by_first && first ? path->by_first->piece_about(*first) : 0,
-                                  path->by_landing ? path->by_landing->piece_about(*landing(photon)) : 0);
+        photon.signature =
+            split_signature(photon.signature, path->by_first && first ? path->by_first->piece_at(*first) : 0,
+                            path->by_landing ? path->by_landing->piece_at(*landing(photon)) : 0);
     }
 
 private:
@@ -112,11 +112,14 @@ private:
         return PlaceOnSurface{space3(photon.deposit->position), space3(photon.deposit->normal)};
     }
 
-    [[nodiscard]] static std::uint32_t parted(std::uint32_t signature, std::uint32_t first, std::uint32_t landing) {
+    /// The signature of two pieces; unchanged for the largest ones, which have the number 0.
+    [[nodiscard]] static std::uint32_t split_signature(std::uint32_t signature, std::uint32_t first,
+                                                       std::uint32_t landing) {
         return signature ^ (first * 0x9e3779b9u) ^ (landing * 0x85ebca6bu);
     }
 
-    /// Nothing where neighbours nowhere part, and on surfaces so rough that most points have no neighbours on theirs.
+    /// The pieces that points lie on. Nothing if there is only one, or if most points are on pieces with a few points
+    /// only, as on a very rough surface.
     template <class Iterator, class PointOf>
     [[nodiscard]] static Pieces pieces_of(Iterator begin, Iterator end, const PointOf& point_of,
                                           const TaskRunner& run) {
@@ -134,15 +137,15 @@ private:
             points.push_back(*point_of(*i));
         Pieces pieces(std::in_place, std::move(points), run);
         constexpr std::uint32_t few = 64;
-        double lone = 0;
+        double on_small_pieces = 0;
         for (const std::uint32_t size : pieces->sizes())
-            lone += size < few ? size : 0;
-        if (pieces->sizes().size() == 1 || lone > 0.5 * double(end - begin))
+            on_small_pieces += size < few ? size : 0;
+        if (pieces->sizes().size() == 1 || on_small_pieces > 0.5 * double(end - begin))
             pieces.reset();
         return pieces;
     }
 
-    std::vector<Path> paths_; // those that part, sorted
+    std::vector<Path> paths_; // those that are split, sorted by key
 };
 
 } // namespace nephroid::detail

@@ -39,10 +39,10 @@ struct SecondOrder {
         0.125;                 ///< over the longer half tangent of the new footprint; longer shifts are shortened and
                                ///< counted (`Statistics::bounded_shifts`). The part of the shift due to footprints
                                ///< that change is limited to a quarter of the footprint as well
-    double largest_miss = 0.1; ///< how far neighbours may land from where the fitted tangents say, over how far apart
-                               ///< they land. A path on which they often miss by more, on facets say, is splatted as
-                               ///< published and counted (`Statistics::splatted_as_published`). Infinity: none is. Not
-                               ///< where the pass has its own smoothing or the domain repeats
+    double largest_miss = 0.1; ///< how far neighbours may land from where fitted tangents predict, over how far apart
+                               ///< they land. If they often miss by more, as on facets, their path's photons are
+                               ///< splatted as published and counted (`Statistics::splatted_as_published`). Infinity:
+                               ///< never. Has no effect if the pass gives a smoothing or the domain repeats
     std::uint64_t pilot = 1u << 16; ///< how many of the pass's first photons the footprints are chosen from, >= 1
     bool domain_repeats = false; ///< whether the scene repeats over the light's patch (a tile of endless water, say),
                                  ///< so that opposite borders of the patch are neighbours; has no effect on area lights

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// @file  Points sorted into the smooth surfaces that they lie on, where nobody names these: neighbours on one surface
-///        lie in each other's tangent planes, as far as those turn between them; across an edge or a step they do not.
+/// @file  Sorts points into smooth pieces of surface, from their positions and normals alone. Two neighbours are on one
+///        piece if each lies near the other's tangent plane, as near as the turn of the normal between them allows.
+///        Across an edge or a step they do not.
 #pragma once
 
 #include "nephroid/execution/task_runner.hpp"
@@ -24,8 +25,9 @@ struct PlaceOnSurface {
     Space3 position, normal;
 };
 
-/// Whether two points may lie on one smooth surface. Between points of a curve, one lies off the other's tangent by
-/// half of the angle times the distance: twice that, and a tenth for bumps and facets, are let pass.
+/// Whether two points may lie on one smooth surface. A point of an arc lies off another point's tangent by half of the
+/// angle between the tangents times the distance. Twice as much is allowed, and a tenth of the distance for bumps and
+/// facets.
 [[nodiscard]] inline bool may_share_surface(const PlaceOnSurface& a, const PlaceOnSurface& b) {
     if (!(inner(a.normal, b.normal) > 0.7)) // an edge of 45 degrees
         return false;
@@ -35,7 +37,8 @@ struct PlaceOnSurface {
     return height <= std::sqrt(inner(away, away)) * (0.1 + std::sqrt(inner(turn, turn))) + rounding;
 }
 
-/// Points in pieces: two are in one if a chain of near neighbours leads from one to the other.
+/// Points sorted into pieces. Two points are on one piece if a chain leads from one to the other in which each point is
+/// one of the eight nearest to the one before and may share a surface with it.
 template <Vector3 V>
 class SurfacePieces {
 public:
@@ -68,8 +71,9 @@ public:
     /// Which piece a point is in.
     [[nodiscard]] std::uint32_t operator[](std::size_t point) const { return pieces_[point]; }
 
-    /// The piece that another point would be in; `unknown` if it lies on the surface of none of the nearest.
-    [[nodiscard]] std::uint32_t piece_about(const PlaceOnSurface& point) const {
+    /// The piece of a further point: that of the nearest point with which it may share a surface; `unknown` if none of
+    /// the eight nearest may.
+    [[nodiscard]] std::uint32_t piece_at(const PlaceOnSurface& point) const {
         std::array<Neighbour<T>, linked> found;
         const std::size_t count = tree_.nearest(tree_.relative(world(point)), found);
         double nearest = std::numeric_limits<double>::infinity();
@@ -85,7 +89,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t linked = 8; // a plane's random points hang together by six
+    static constexpr std::size_t linked = 8; // nearest points; random points of a plane are connected by six
 
     [[nodiscard]] static V world(const PlaceOnSurface& p) {
         return make_vector<V>(T(p.position.x), T(p.position.y), T(p.position.z));
@@ -103,7 +107,7 @@ private:
         return neighbours;
     }
 
-    /// Numbers the pieces by size; those of one size by their first point.
+    /// Numbers the pieces by size, the largest first; those of equal size by their first point.
     template <class RootOf>
     void number(const RootOf& root_of) {
         std::vector<std::uint32_t> count(points_.size(), 0), roots;
@@ -114,13 +118,13 @@ private:
                 roots.push_back(pieces_[i]);
         }
         std::stable_sort(roots.begin(), roots.end(), [&](auto a, auto b) { return count[a] > count[b]; });
-        std::vector<std::uint32_t> names(points_.size(), unknown);
+        std::vector<std::uint32_t> piece_of_root(points_.size(), unknown);
         for (std::uint32_t piece = 0; piece < roots.size(); ++piece) {
-            names[roots[piece]] = piece;
+            piece_of_root[roots[piece]] = piece;
             sizes_.push_back(count[roots[piece]]);
         }
         for (std::uint32_t& piece : pieces_)
-            piece = names[piece];
+            piece = piece_of_root[piece];
     }
 
     std::vector<PlaceOnSurface> points_;
