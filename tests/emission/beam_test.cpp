@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/emission/beam.hpp"
 
-#include "nephroid/emission/warp.hpp"
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/sphere_direction.hpp"
 
 #include <doctest/doctest.h>
 

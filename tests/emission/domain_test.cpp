@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/emission/domain.hpp"
 
+#include "emission/light/distance_to_kink.hpp"
+
 #include <doctest/doctest.h>
 
 #include <cmath>

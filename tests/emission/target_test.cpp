@@ -3,6 +3,7 @@
 
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/sphere_direction.hpp"
 
 #include <doctest/doctest.h>
 

@@ -5,6 +5,7 @@
 #include "nephroid/emission/cone.hpp"
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/sphere_direction.hpp"
 
 #include <doctest/doctest.h>
 

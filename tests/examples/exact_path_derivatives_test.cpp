@@ -83,9 +83,9 @@ void check(const L& light, const MakeScene& scene, const End& end) {
         const auto deposit = walk(scene(double()), photon, plain, {}, account);
         REQUIRE((twice && once && deposit));
         const tests::Neighbours neighbours(photon);
-        const Space3 off = twice->position - tests::narrowed(end(neighbours.at(Wide(0), Wide(0))));
+        const Double3 off = twice->position - tests::narrowed(end(neighbours.at(Wide(0), Wide(0))));
         CHECK(std::sqrt(inner(off, off)) < 1e-13);
-        const Space3 landed{deposit->position.x, deposit->position.y, deposit->position.z};
+        const Double3 landed{deposit->position.x, deposit->position.y, deposit->position.z};
         CHECK(std::sqrt(inner(landed - once->position, landed - once->position)) < 1e-14);
 
         const PathDerivatives expected = tests::derivatives_by_differences(neighbours, end);

@@ -103,7 +103,7 @@ TEST_CASE_TEMPLATE("divergence: tangents between two small balls outgrow the sca
             REQUIRE(deposit.has_value());
             for (const Vec<T>& d : deposit->d_position) {
                 CHECK(all_finite(d));
-                CHECK(abs(d.x) + abs(d.y) <= T(4) * longest_tangent<T>);
+                CHECK(abs(d.x) + abs(d.y) <= T(4) * detail::longest_tangent<T>);
             }
             const auto outcome = make_splat(*deposit, map, Published{});
             CHECK(outcome.fate == Fate::splatted);
@@ -122,10 +122,10 @@ TEST_CASE_TEMPLATE("divergence: a tangent within range is untouched and one beyo
                    double) {
     using V = Vec<T>;
     const auto brought = [](Tangent<V> tangent) {
-        bring_into_range(tangent);
+        detail::bring_into_range(tangent);
         return tangent;
     };
-    const T longest = longest_tangent<T>;
+    const T longest = detail::longest_tangent<T>;
     CHECK(longest > T(1e15));
     CHECK(std::isfinite(longest * longest * T(1e6)));
     const Tangent<V> inside{V(longest, 0, -longest), V(1, 2, 3)};

@@ -220,7 +220,7 @@ TEST_CASE("HaltonSequence: with a seed each dimension starts at an index of its 
         const HaltonSequence sequence(seed);
         // In base 2 the first coordinate, its bits in reverse order, tells the start.
         const auto bits = static_cast<std::uint64_t>(std::ldexp(sequence.sample<double>(0, 0), 53));
-        const std::uint64_t start = reverse_bits(bits << 11);
+        const std::uint64_t start = detail::reverse_bits(bits << 11);
         CHECK(start < std::uint64_t{1} << 32);
         CHECK(sequence.sample<double>(0, 0) == plain.sample<double>(start, 0));
         for (std::uint32_t d = 1; d < HaltonSequence::dimensions; ++d)

@@ -13,9 +13,9 @@ namespace nephroid::tests::hash_test {
 // The generator seeded with 0, whose state moves by the golden ratio, starts with these published numbers.
 TEST_CASE("mix_bits: is the finaliser of SplitMix64") {
     const std::uint64_t golden = 0x9e3779b97f4a7c15u;
-    CHECK(mix_bits(golden) == 0xe220a8397b1dcdafu);
-    CHECK(mix_bits(2 * golden) == 0x6e789e6aa1b965f4u);
-    CHECK(mix_bits(3 * golden) == 0x06c45d188009454fu);
+    CHECK(detail::mix_bits(golden) == 0xe220a8397b1dcdafu);
+    CHECK(detail::mix_bits(2 * golden) == 0x6e789e6aa1b965f4u);
+    CHECK(detail::mix_bits(3 * golden) == 0x06c45d188009454fu);
 }
 
 // Of 64 bits, each flips with probability 1/2: over n trials the count has standard deviation sqrt(n) / 2.
@@ -42,8 +42,8 @@ TEST_CASE("hash_bits: zero is as good as any other seed and value") {
 
 TEST_CASE("reverse_bits: bit i goes to bit 63 - i") {
     for (int i = 0; i < 64; ++i)
-        CHECK(reverse_bits(std::uint64_t{1} << i) == std::uint64_t{1} << (63 - i));
-    CHECK(reverse_bits(0x0123456789abcdefu) == 0xf7b3d591e6a2c480u);
+        CHECK(detail::reverse_bits(std::uint64_t{1} << i) == std::uint64_t{1} << (63 - i));
+    CHECK(detail::reverse_bits(0x0123456789abcdefu) == 0xf7b3d591e6a2c480u);
 }
 
 TEST_CASE("uniform_from_bits: the most bits give the number before 1, no bits 0, half of them a half") {

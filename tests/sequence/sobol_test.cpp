@@ -91,7 +91,7 @@ TEST_CASE("sobol_bits: the first points are the published ones") {
 TEST_CASE("sobol_bits: agrees with the recurrence on integers, for all dimensions and index bits") {
     for (std::uint32_t d = 0; d < sobol_dimensions; ++d) {
         for (std::uint32_t k = 0; k < 300; ++k) {
-            const std::uint32_t index = k < 32 ? std::uint32_t{1} << k : static_cast<std::uint32_t>(mix_bits(k));
+            const std::uint32_t index = k < 32 ? std::uint32_t{1} << k : static_cast<std::uint32_t>(detail::mix_bits(k));
             CHECK(sobol_bits(index, d) == slow_sobol(index, d));
         }
     }
@@ -152,7 +152,7 @@ TEST_CASE("sobol_bits: the first 2^16 points lie one in each of the 2^16 half-si
 
 TEST_CASE("nested_uniform_scramble: a digit changes its own and later digits, and nothing before") {
     for (std::uint64_t k = 0; k < 200; ++k) {
-        const auto digits = static_cast<std::uint32_t>(mix_bits(k + 1));
+        const auto digits = static_cast<std::uint32_t>(detail::mix_bits(k + 1));
         const std::uint64_t key = hash_bits(5, k);
         for (std::uint32_t bit = 0; bit < 32; ++bit) {
             const std::uint32_t flip = std::uint32_t{1} << bit;

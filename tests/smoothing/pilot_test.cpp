@@ -360,14 +360,14 @@ TEST_CASE_TEMPLATE("second order: a light that also draws a wavelength still has
     using V = Vec<T>;
     const auto placed = [](const auto& light) {
         using L = std::remove_cvref_t<decltype(light)>;
-        static_assert(emission_domains<L>.two && !emission_domains<L>.others);
+        static_assert(detail::emission_domains<L>.two && !detail::emission_domains<L>.others);
         const PhotonPass pass{.count = 3000};
         const HaltonSequence sequence(1);
         SerialExecutor executor;
         const Default policies;
         const auto pilot = detail::trace_pilot(ball<V>(), light, pass, policies.order, sequence, executor);
         const auto footprints =
-            detail::fit_footprints<emission_domains<L>>(pilot, pass, policies, 100.0, true, executor);
+            detail::fit_footprints<detail::emission_domains<L>>(pilot, pass, policies, 100.0, true, executor);
         std::vector<V> places;
         std::size_t moved = 0;
         for (auto photon : pilot.photons) {

@@ -6,6 +6,7 @@
 #include "nephroid/differential/reemission.hpp"
 #include "nephroid/emission/warp.hpp"
 #include "nephroid/sequence/random.hpp"
+#include "support/sphere_direction.hpp"
 
 #include <cmath>
 #include <cstdint>

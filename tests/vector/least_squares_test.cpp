@@ -37,10 +37,10 @@ TEST_CASE("least squares: contradicting rows meet in their weighted mean") {
 }
 
 TEST_CASE("least squares: the unknowns may be vectors and the last of them left out") {
-    LeastSquares<3, Space3> equations;
+    LeastSquares<3, Double3> equations;
     for (int i = 0; i < 5; ++i)
         equations.add({1, double(i), 0}, {1.0 + 2 * i, 4.0 - i, 0}, 1);
-    std::array<Space3, 3> x;
+    std::array<Double3, 3> x;
     CHECK(!equations.solve(3, x)); // nothing is known of the third
     REQUIRE(equations.solve(2, x));
     CHECK(x[0].x == doctest::Approx(1).epsilon(1e-12));

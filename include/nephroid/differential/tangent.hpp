@@ -30,13 +30,12 @@ template <Scalar T>
         power = T(2) * power;
     return power;
 }
-} // namespace detail
 
 /// The largest component that a tangent may have: 2^52 in float, 2^244 in double. It is larger than any scene, and
 /// small enough that neither a flight, nor a surface, nor the fourth powers behind an ellipse's radii (in `wider_t`)
 /// overflow.
 template <Scalar T>
-inline constexpr T longest_tangent = detail::power_of_two<T>(
+inline constexpr T longest_tangent = power_of_two<T>(
     (std::min)(std::numeric_limits<T>::max_exponent / 2, std::numeric_limits<wider_t<T>>::max_exponent / 4) - 12);
 
 /// Scales a tangent down to `longest_tangent` where it is longer. Between curved mirrors tangents grow exponentially,
@@ -55,6 +54,7 @@ void bring_into_range(Tangent<V>& tangent) {
     const T scale = longest_tangent<T> / reach;
     tangent = {scale * tangent.d_position, scale * tangent.d_direction};
 }
+} // namespace detail
 
 /// A photon differential: N tangents. The first two (u, v) are Frisvad's aligned differential, the common case; others
 /// (time, wavelength, a second pair for unaligned emission) follow them.

@@ -5,10 +5,8 @@
 #include "nephroid/vector/language.hpp"
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 namespace nephroid {
 
@@ -48,20 +46,5 @@ struct EmissionDomain {
         return count;
     }
 };
-
-/// The distance of a point of a pair's unit square from the nearest kink; infinite if there is no kink, and 0 if the
-/// kinks are unknown.
-[[nodiscard]] inline double distance_to_kink(Kinks kinks, double u, double v) {
-    const double a = std::abs(u - 0.5), b = std::abs(v - 0.5), root_half = std::sqrt(0.5);
-    switch (kinks) {
-    case Kinks::nowhere:
-        return std::numeric_limits<double>::infinity();
-    case Kinks::diagonals:
-        return root_half * std::abs(a - b);
-    case Kinks::unknown:
-        break;
-    }
-    return 0;
-}
 
 } // namespace nephroid

@@ -129,6 +129,7 @@ template <class L>
         return L::domain;
 }
 
+namespace detail {
 /// The kinds of domain that a light may emit from, as known at compile time. A set of lights may have all of them.
 struct EmissionDomains {
     bool two = false, four = false; ///< by the number of coordinates
@@ -138,10 +139,6 @@ struct EmissionDomains {
         return {a.two || b.two, a.four || b.four, a.others || b.others};
     }
 };
-
-[[nodiscard]] constexpr bool may_emit_from(EmissionDomains domains, std::uint32_t coordinates) {
-    return coordinates == 2 ? domains.two : coordinates == 4 ? domains.four : domains.others;
-}
 
 /// The kinds of domain of a light, from its `domain`, or from the `domains` of a set of lights. A member with this name
 /// but another type is ignored.
@@ -155,7 +152,6 @@ inline constexpr EmissionDomains emission_domains = [] {
         return EmissionDomains{coordinates_of<L> == 2, coordinates_of<L> == 4, coordinates_of<L> == 0};
 }();
 
-namespace detail {
 template <class L>
 consteval bool explain_light() {
     static_assert(HasVectorAndFlux<L>,

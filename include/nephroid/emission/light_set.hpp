@@ -60,7 +60,8 @@ public:
     using flux_type = typename First::flux_type;
     using photon_type = emitted_t<First>;
     using T = scalar_t<vector>;
-    static constexpr EmissionDomains domains = (emission_domains<First> | ... | emission_domains<Others>);
+    static constexpr detail::EmissionDomains domains =
+        (detail::emission_domains<First> | ... | detail::emission_domains<Others>);
     using AnyLight = std::variant<First, Others...>;
 
     /// Throws std::invalid_argument for no lights, and for a power that is negative or not finite.

@@ -50,14 +50,6 @@ template <Vector3 V>
     return (stretch * disk.x) * frame.u + ((stretch * disk.y) * frame.v + (T(1) - depth) * axis);
 }
 
-/// Maps the square to the whole sphere, uniformly, about the z axis. The edge of the square becomes (0, 0, -1).
-template <Vector3 V>
-[[nodiscard]] V sphere_direction(scalar_t<V> u1, scalar_t<V> u2) {
-    using T = scalar_t<V>;
-    const V up = make_vector<V>(T(0), T(0), T(1));
-    return cap_direction(up, frame_about(up), T(2), concentric_disk(u1, u2));
-}
-
 /// Maps the disk to the hemisphere about the axis with density cos/π per steradian, by projecting it up to the sphere.
 ///
 /// @param axis   unit

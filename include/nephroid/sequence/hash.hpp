@@ -11,6 +11,7 @@
 
 namespace nephroid {
 
+namespace detail {
 /// Mixes 64 bits so that each bit of the result depends on each bit of x. A bijection; zero goes to zero.
 ///
 /// Source: the finaliser of SplitMix64, Steele, Lea and Flood 2014, "Fast splittable pseudorandom number
@@ -21,13 +22,6 @@ namespace nephroid {
     return x ^ (x >> 31);
 }
 
-/// Makes a new seed from a seed and any value, zero included. For a fixed seed it is a bijection: different values
-/// never give the same new seed. Nest calls to hash several values.
-[[nodiscard]] constexpr std::uint64_t hash_bits(std::uint64_t seed, std::uint64_t value) noexcept {
-    constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15u; // 2^64 / 1.618..., odd
-    return mix_bits(mix_bits(seed + golden_ratio) + golden_ratio * (value + 1));
-}
-
 /// The bits in reverse order.
 [[nodiscard]] constexpr std::uint64_t reverse_bits(std::uint64_t x) noexcept {
     x = ((x >> 1) & 0x5555555555555555u) | ((x & 0x5555555555555555u) << 1);
@@ -36,6 +30,14 @@ namespace nephroid {
     x = ((x >> 8) & 0x00ff00ff00ff00ffu) | ((x & 0x00ff00ff00ff00ffu) << 8);
     x = ((x >> 16) & 0x0000ffff0000ffffu) | ((x & 0x0000ffff0000ffffu) << 16);
     return (x >> 32) | (x << 32);
+}
+} // namespace detail
+
+/// Makes a new seed from a seed and any value, zero included. For a fixed seed it is a bijection: different values
+/// never give the same new seed. Nest calls to hash several values.
+[[nodiscard]] constexpr std::uint64_t hash_bits(std::uint64_t seed, std::uint64_t value) noexcept {
+    constexpr std::uint64_t golden_ratio = 0x9e3779b97f4a7c15u; // 2^64 / 1.618..., odd
+    return detail::mix_bits(detail::mix_bits(seed + golden_ratio) + golden_ratio * (value + 1));
 }
 
 /// 32 random bits as a multiple of 2^-32 in [0, 1), for float of 2^-24: excess bits are cut off, not rounded, so the

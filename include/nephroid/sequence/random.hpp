@@ -23,7 +23,7 @@ public:
     [[nodiscard]] constexpr std::uint64_t bits(std::uint64_t index, std::uint32_t dimension) const noexcept {
         // One key before each mixing: with a single key, the sequences of two seeds could be shifts of each other.
         constexpr std::uint64_t odd = 0xd1342543de82ef95u;
-        return mix_bits(mix_bits(index + index_key_) + dimension_key_ + odd * dimension);
+        return detail::mix_bits(detail::mix_bits(index + index_key_) + dimension_key_ + odd * dimension);
     }
 
     /// A number in [0, 1): multiples of 2^-53, for float of 2^-24.

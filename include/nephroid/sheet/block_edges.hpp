@@ -2,7 +2,7 @@
 /// @file  Lists the edges of a few neighbouring quads across which the density of light jumps.
 #pragma once
 
-#include "nephroid/sheet/double3.hpp"
+#include "nephroid/vector/double3.hpp"
 #include "nephroid/sheet/edge_pages.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 /// @file  A bicubic patch through four photons, with their tangents and Adini's twists.
 #pragma once
 
-#include "nephroid/sheet/double3.hpp"
+#include "nephroid/vector/double3.hpp"
 
 #include <array>
 #include <cstddef>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/flux.hpp"
-#include "nephroid/sheet/double3.hpp"
+#include "nephroid/vector/double3.hpp"
 
 #include <algorithm>
 #include <cmath>

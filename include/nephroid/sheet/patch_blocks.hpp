@@ -141,7 +141,7 @@ private:
         block.thickness = T(thickness_);
         set_sides(block, grid, normal);
         block.flux = patch.flux;
-        block.direction = make_vector<V>(T(direction.x), T(direction.y), T(direction.z));
+        block.direction = to_world<V>(direction);
 
         bool is_seen = false;
         BlockEdges<T> edges(grid, pixel_, [&](const auto& a, const auto& b, const auto& c, double share) {
@@ -174,7 +174,7 @@ private:
         block.normal = {T(normal.x), T(normal.y), T(normal.z)};
         block.thickness = T(thickness_);
         block.flux = flux;
-        block.direction = make_vector<V>(T(direction.x), T(direction.y), T(direction.z));
+        block.direction = to_world<V>(direction);
         block.triangle = std::uint32_t(pieces.triangles.size());
         pieces.triangles.push_back(corners);
         return add_if_near(block, pieces, visit);

@@ -5,7 +5,7 @@
 
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
-#include "nephroid/sheet/double3.hpp"
+#include "nephroid/vector/double3.hpp"
 #include "nephroid/sheet/pixel_group.hpp"
 
 #include <algorithm>
@@ -100,7 +100,7 @@ public:
 
     /// The side of a pixel around a place relative to the tree's origin, world units; the receiver must not be empty.
     [[nodiscard]] double pixel_at(const Double3& place) const {
-        return double(leaves_[map_->tree().nearest_leaf(make_vector<V>(T(place.x), T(place.y), T(place.z)))].pixel);
+        return double(leaves_[map_->tree().nearest_leaf(to_world<V>(place))].pixel);
     }
 
 private:

@@ -33,7 +33,7 @@ void prepare_shifted(const Footprints& footprints, Photon& photon, const Splatte
                      typename Splatter::Chunk& chunk, Statistics& account) {
     const auto& policies = splatter.policies();
     if constexpr (std::derived_from<std::remove_cvref_t<decltype(policies.order)>, CurvedFootprints>) {
-        std::array<Space3, 3> second;
+        std::array<Double3, 3> second;
         count(footprints.apply(photon, &second), account);
         const double moment = std::remove_cvref_t<decltype(policies.kernel)>::second_moment;
         splatter.prepare(curved(*photon.deposit, second, policies.order, moment).pieces(), chunk, account);

@@ -58,16 +58,18 @@ concept ScattersAllWays = RayTracer<S, V> && requires(const S& scene, const hit_
     {scene.scatter_all(hit, direction)[std::size_t(0)].weight};
 };
 
+namespace detail {
 /// The scene declares `static constexpr bool scatters_by_chance = false`: its `scatter` draws no numbers, and the way
 /// that it returns is the only one.
 template <class S>
 concept ScattersOneWay = requires {
     requires !bool(std::bool_constant<S::scatters_by_chance>::value);
 };
+} // namespace detail
 
 /// A scene in which all ways of light can be followed, so that a photon's paths are a function of where it was emitted.
 /// A scene with nothing but `scatter` may choose a way by chance.
 template <class S, class V>
-concept ScattersDeterministically = ScattersAllWays<S, V> || ScattersOneWay<S>;
+concept ScattersDeterministically = ScattersAllWays<S, V> || detail::ScattersOneWay<S>;
 
 } // namespace nephroid

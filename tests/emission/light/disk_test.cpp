@@ -4,6 +4,7 @@
 #include "nephroid/vector/glm.hpp"
 
 #include "emission/light/light_laws.hpp"
+#include "support/sphere_direction.hpp"
 
 #include <doctest/doctest.h>
 

@@ -2,6 +2,7 @@
 /// @file  What a light's declared domain must be true of: the laws that tests hold each light to.
 #pragma once
 
+#include "emission/light/distance_to_kink.hpp"
 #include "emission/light/light_laws.hpp"
 #include "nephroid/emission/emit_at.hpp"
 #include "nephroid/emission/light.hpp"

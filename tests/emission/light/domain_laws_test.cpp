@@ -90,7 +90,7 @@ TEST_CASE("light domains: a light without its tangents has the domain that it ha
     const WithoutTangents bare(lamp);
     static_assert(coordinates_of<WithoutTangents<PointLight<D, double>>> == 2);
     CHECK(domain_of(bare).kinks[0] == Kinks::diagonals);
-    static_assert(emission_domains<WithoutTangents<StandardLights<D, double>>>.four);
+    static_assert(detail::emission_domains<WithoutTangents<StandardLights<D, double>>>.four);
 }
 
 } // namespace nephroid::tests::domain_laws_test

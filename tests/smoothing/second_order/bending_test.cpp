@@ -19,10 +19,10 @@ using Second = std::array<Plane2, 3>;
 using Third = std::array<Plane2, 4>;
 
 constexpr double many = 1e15; // photons: the part of Q that the domain's size makes is nothing
-constexpr std::array<Space3, 2> slanted{{{2, 0.5, 1}, {-0.3, 1, 0.2}}};
+constexpr std::array<Double3, 2> slanted{{{2, 0.5, 1}, {-0.3, 1, 0.2}}};
 
 /// A map into space with derivatives J h and J t, h and t in emission coordinates.
-[[nodiscard]] PathDerivatives map_of(const std::array<Space3, 2>& j, const Second& h, const Third& t = {}) {
+[[nodiscard]] PathDerivatives map_of(const std::array<Double3, 2>& j, const Second& h, const Third& t = {}) {
     PathDerivatives map{j, {}, {}};
     for (std::size_t i = 0; i < 3; ++i)
         map.second[i] = h[i].x * j[0] + h[i].y * j[1];
@@ -52,14 +52,14 @@ constexpr std::array<Space3, 2> slanted{{{2, 0.5, 1}, {-0.3, 1, 0.2}}};
     double second2 = 0, third2 = 0;
     for (const Plane2 a : axes)
         for (const Plane2 b : axes) {
-            Space3 h{};
+            Double3 h{};
             for (std::size_t i = 0; i < 2; ++i)
                 for (std::size_t k = 0; k < 2; ++k)
                     h += (coordinate(a, i) * coordinate(b, k)) * map.second[i + k];
             const Plane2 v = back(pull_back(h));
             second2 += inner(v, v);
             for (const Plane2 c : axes) {
-                Space3 t{};
+                Double3 t{};
                 for (std::size_t i = 0; i < 2; ++i)
                     for (std::size_t k = 0; k < 2; ++k)
                         for (std::size_t m = 0; m < 2; ++m)
@@ -180,7 +180,7 @@ TEST_CASE("bending: on a straight map only the domain's size and the roughness c
 
 // At a fold J is singular: what sticks out of its image counts for nothing, the rest for as much as may be.
 TEST_CASE("bending: it is finite at folds and points") {
-    const std::array<Space3, 2> fold{{{1, 0, 0}, {1, 0, 0}}}, point{};
+    const std::array<Double3, 2> fold{{{1, 0, 0}, {1, 0, 0}}}, point{};
     for (const auto& first : {fold, point})
         for (const double stretch : {8.0, std::numeric_limits<double>::infinity()}) {
             const PathDerivatives map{first, {{{0.1, 0.3, 0}, {0, 0.1, 0}, {0.2, 0, 0.1}}}, {}};

@@ -25,7 +25,7 @@ namespace {
 
 using D = glm::dvec3;
 using Whole = Deposit<D, double, 2>;
-using SecondDerivatives = std::array<Space3, 3>;
+using SecondDerivatives = std::array<Double3, 3>;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
@@ -107,7 +107,7 @@ TEST_CASE("curved footprints: the pieces keep the flux and the mean of the one s
          {BiweightKernel::second_moment, UniformKernel::second_moment, TruncatedGaussianKernel::second_moment}) {
         const auto straight = curved(flat, {}, {{}, 0}, moment);
         REQUIRE(straight.count == 1); // nothing bends, even by the least bound
-        const SecondDerivatives faint{Space3{1e-9, 0, 0}, {}, {}};
+        const SecondDerivatives faint{Double3{1e-9, 0, 0}, {}, {}};
         const auto apart = curved(flat, faint, {{}, 0}, moment);
         REQUIRE(apart.count == 7);
         const Moments seven(apart.pieces(), moment);
@@ -117,8 +117,9 @@ TEST_CASE("curved footprints: the pieces keep the flux and the mean of the one s
         CHECK(seven.covariance.xx == doctest::Approx(share * one.covariance.xx).epsilon(1e-7));
         CHECK(seven.covariance.xy == doctest::Approx(share * one.covariance.xy).epsilon(1e-7));
         CHECK(seven.covariance.yy == doctest::Approx(share * one.covariance.yy).epsilon(1e-7));
-        const auto bent = curved(
-            flat, SecondDerivatives{Space3{0.1, 0.3, 0}, Space3{-0.2, 0.1, 0}, Space3{0.15, -0.1, 0}}, {{}, 0}, moment);
+        const auto bent =
+            curved(flat, SecondDerivatives{Double3{0.1, 0.3, 0}, Double3{-0.2, 0.1, 0}, Double3{0.15, -0.1, 0}},
+                   {{}, 0}, moment);
         CHECK(length(Moments(bent.pieces(), moment).mean - flat.position) < 1e-15);
     }
 }
@@ -127,7 +128,7 @@ TEST_CASE("curved footprints: the pieces keep the flux and the mean of the one s
 // they bend.
 TEST_CASE("curved footprints: pieces lie where the map takes them and have its tangents there") {
     const D a(0.4, 0, 0), b(0, 0.05, 0);
-    const SecondDerivatives second{Space3{0, 0.3, 0}, Space3{0.02, 0, 0}, Space3{0, 0, 0}};
+    const SecondDerivatives second{Double3{0, 0.3, 0}, Double3{0.02, 0, 0}, Double3{0, 0, 0}};
     const auto result = curved(deposit_of(a, b), second, {}, 0.125);
     REQUIRE(result.count == 7);
     const D mean(0, 0.5 * 3.0 / 32 * 0.3, 0);
@@ -143,7 +144,7 @@ TEST_CASE("curved footprints: pieces lie where the map takes them and have its t
 TEST_CASE("curved footprints: footprints that hardly bend stay whole") {
     const Whole flat = deposit_of({0.4, 0, 0}, {0, 0.05, 0});
     const auto pieces_for = [&](double bend, double least) {
-        return curved(flat, SecondDerivatives{Space3{0, bend, 0}, {}, {}}, {{}, least}, 0.125).count;
+        return curved(flat, SecondDerivatives{Double3{0, bend, 0}, {}, {}}, {{}, least}, 0.125).count;
     };
     CHECK(pieces_for(0.024, 0.5) == 1); // of 0.05, the minor radius
     CHECK(pieces_for(0.026, 0.5) == 7);

@@ -68,7 +68,7 @@ template <class Map>
     return map(u, v);
 }
 
-[[nodiscard]] inline Space3 narrowed(const Space& v) {
+[[nodiscard]] inline Double3 narrowed(const Space& v) {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
@@ -83,7 +83,7 @@ template <class End>
 
 /// The largest difference between two sets of derivatives, relative to the largest of the second set.
 template <std::size_t N>
-[[nodiscard]] double relative_difference(const std::array<Space3, N>& a, const std::array<Space3, N>& b) {
+[[nodiscard]] double relative_difference(const std::array<Double3, N>& a, const std::array<Double3, N>& b) {
     double furthest = 0, largest = 0;
     for (std::size_t i = 0; i < N; ++i) {
         furthest = (std::max)(furthest, std::sqrt(inner(a[i] - b[i], a[i] - b[i])));

@@ -79,8 +79,8 @@ TEST_CASE("exact path derivatives: under a ball of glass they are the central di
             const auto path = follow<Twice>(photon, sampler);
             REQUIRE(path);
             const Neighbours neighbours(photon);
-            const Space3 end = tests::narrowed(under_ball(neighbours.at(Wide(0), Wide(0))));
-            const Space3 off = path->position - end;
+            const Double3 end = tests::narrowed(under_ball(neighbours.at(Wide(0), Wide(0))));
+            const Double3 off = path->position - end;
             CHECK(std::sqrt(inner(off, off)) < 1e-13);
             const PathDerivatives expected = tests::derivatives_by_differences(neighbours, under_ball);
             CHECK(relative_difference(path->map.first, expected.first) < 1e-11);
@@ -100,7 +100,7 @@ TEST_CASE(
         REQUIRE((once && twice));
         CHECK(relative_difference(once->map.first, twice->map.first) < 1e-14);
         CHECK(relative_difference(once->map.second, twice->map.second) < 1e-13);
-        for (const Space3& third : once->map.third)
+        for (const Double3& third : once->map.third)
             CHECK(inner(third, third) == 0);
         CHECK(once->signature == twice->signature);
     });
@@ -165,7 +165,7 @@ template <class L>
         const auto fitted = field.at(at, photon.frame, photon.signature);
         REQUIRE((exact && fitted));
         for (std::size_t k = 0; k < 3; ++k) {
-            const Space3 off = fitted->second[k] - exact->map.second[k];
+            const Double3 off = fitted->second[k] - exact->map.second[k];
             difference2 += inner(off, off);
             sum2 += inner(exact->map.second[k], exact->map.second[k]);
         }

@@ -63,7 +63,7 @@ template <class Map>
     return narrowed(narrowed(radius2, distance), width - distance);
 }
 
-[[nodiscard]] inline double distance(const Space3& a, const Space3& b) { return std::sqrt(inner(a - b, a - b)); }
+[[nodiscard]] inline double distance(const Double3& a, const Double3& b) { return std::sqrt(inner(a - b, a - b)); }
 
 inline void check_close(const Symmetric2& a, const Symmetric2& b, double tolerance) {
     CHECK(std::abs(a.xx - b.xx) <= tolerance);

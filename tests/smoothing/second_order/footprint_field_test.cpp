@@ -80,7 +80,7 @@ TEST_CASE("footprint field: groups that overlap by chance do not disturb each ot
                 REQUIRE((first && second && all));
                 // Fewer photons, and no longer in order: a wider footprint, unless all that is allowed was taken.
                 CHECK(size_of(first->shape) >= size_of(all->shape) * (1 - 1e-6));
-                const Space3 error = second->second[0] - Space3{0.8 * u02, -0.2 * u02, 0};
+                const Double3 error = second->second[0] - Double3{0.8 * u02, -0.2 * u02, 0};
                 CHECK(std::sqrt(inner(error, error)) <= 1e-9 * u02);
             }
     }

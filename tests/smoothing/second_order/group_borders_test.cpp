@@ -37,7 +37,7 @@ TEST_CASE("group borders: both sides of a change of path have a border") {
     const auto last = at(field_of(bent_beyond), bent_beyond, 0.499, 0.5);
     REQUIRE(last);
     check_close(last->shape, {narrowed(s2, 0), 0, across}, 1e-6 * s2);
-    for (const Space3& h : last->second)
+    for (const Double3& h : last->second)
         CHECK(std::sqrt(inner(h, h)) <= 1e-12);
 }
 

@@ -30,7 +30,7 @@ TEST_CASE("group field: a straight map has round footprints and no shift away fr
             REQUIRE(here);
             check_close(here->shape, Symmetric2::isotropic(s2), 1e-9 * s2);
             CHECK(std::abs(here->divergence.x) + std::abs(here->divergence.y) <= 1e-9 * s2);
-            for (const Space3& h : here->second) // a unit step, 1/335 of the domain, changes J by nothing
+            for (const Double3& h : here->second) // a unit step, 1/335 of the domain, changes J by nothing
                 CHECK(std::sqrt(inner(h, h)) <= 1e-12);
         }
 }
@@ -159,7 +159,7 @@ TEST_CASE("group field: flat facets are splatted as published, and a few of them
                 continue;
             check_close(here->shape, Symmetric2::isotropic(square(default_smoothing)), 0);
             CHECK(inner(here->divergence, here->divergence) == 0);
-            for (const Space3& h : here->second)
+            for (const Double3& h : here->second)
                 CHECK(inner(h, h) == 0);
         }
     };

@@ -77,7 +77,7 @@ TEST_CASE("group fit: a photon with far longer tangents than its neighbours does
     constexpr double longer = 1e4;
     auto photons = photons_of(quadratic, lattice(std::size_t(side), std::size_t(side)));
     MapPhoton& pole = photons[30 * 63 + 30]; // a corner of the cell in the middle
-    for (Space3& tangent : pole.tangents)
+    for (Double3& tangent : pole.tangents)
         tangent = longer * tangent;
     const auto plain = at(field_of(quadratic), quadratic, 0.5, 0.5),
                here = at(field_of(photons, stratified()), quadratic, 0.5, 0.5);

@@ -42,7 +42,7 @@ TEST_CASE("landings: a cubic map predicts where its photons land, wherever it be
     for (const double far_away : {0.0, 5.0}) {
         const auto place = [&](Plane2 at) {
             const double u = at.x, v = at.y;
-            return Space3{u + u * u / 2 - u * v * v / 2 + v * v * v / 6 + far_away, v + u * v + u * u * u / 6, 5};
+            return Double3{u + u * u / 2 - u * v * v / 2 + v * v * v / 6 + far_away, v + u * v + u * u * u / 6, 5};
         };
         CHECK(!landings_of(map, place).contradict(map, 1e-9));
         PathDerivatives wrong = map;
@@ -54,7 +54,7 @@ TEST_CASE("landings: a cubic map predicts where its photons land, wherever it be
 // A fold: F = (u²/2, v). At u = 0 a step along u goes nowhere, and is still predicted.
 TEST_CASE("landings: a fold contradicts nothing") {
     const PathDerivatives map{{{{0, 0, 0}, {0, 1, 0}}}, {{{1, 0, 0}, {0, 0, 0}, {0, 0, 0}}}, {}};
-    CHECK(!landings_of(map, [](Plane2 at) { return Space3{at.x * at.x / 2, at.y, 0}; }).contradict(map, 1e-9));
+    CHECK(!landings_of(map, [](Plane2 at) { return Double3{at.x * at.x / 2, at.y, 0}; }).contradict(map, 1e-9));
 }
 
 // Photons with x > 0 jump by g along y: of 49, n = 21 do. The mean square of what the place in the middle does not
@@ -62,7 +62,7 @@ TEST_CASE("landings: a fold contradicts nothing") {
 TEST_CASE("landings: two facets contradict tangents that are the same on both, by how far they part") {
     for (const double gap : {0.1, 1.0, 10.0}) {
         const Landings landings = landings_of(identity(), [&](Plane2 at) {
-            return Space3{at.x, at.y + (at.x > 0 ? gap : 0), 0};
+            return Double3{at.x, at.y + (at.x > 0 ? gap : 0), 0};
         });
         const double part = gap * std::sqrt(21.0 * 28) / 49 / std::sqrt(8.0);
         CHECK(landings.contradict(identity(), 0.999 * part));
@@ -88,10 +88,10 @@ TEST_CASE("landings: a miss that the tangents' scatter explains is no contradict
 
 TEST_CASE("landings: rounded places contradict nothing, and places that are no numbers do") {
     const auto rounded = [](Plane2 at) { // to floats, as far from the origin as 10⁵ photons' distances
-        return Space3{double(float(1e5 + at.x)), double(float(1e5 + at.y)), 0};
+        return Double3{double(float(1e5 + at.x)), double(float(1e5 + at.y)), 0};
     };
     CHECK(!landings_of(identity(), rounded).contradict(identity(), 1e-9));
-    const auto broken = [](Plane2 at) { return Space3{at.x, std::numeric_limits<double>::quiet_NaN(), 0}; };
+    const auto broken = [](Plane2 at) { return Double3{at.x, std::numeric_limits<double>::quiet_NaN(), 0}; };
     CHECK(landings_of(identity(), broken).contradict(identity(), 0.1));
     CHECK(!Landings{}.contradict(identity(), 0));
 }

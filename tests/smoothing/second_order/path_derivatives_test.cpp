@@ -20,24 +20,24 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-[[nodiscard]] Space3 any_space(Draws& draw) { return {draw.in(-1, 1), draw.in(-1, 1), draw.in(-1, 1)}; }
+[[nodiscard]] Double3 any_space(Draws& draw) { return {draw.in(-1, 1), draw.in(-1, 1), draw.in(-1, 1)}; }
 
-[[nodiscard]] double distance(const Space3& a, const Space3& b) { return std::sqrt(inner(a - b, a - b)); }
+[[nodiscard]] double distance(const Double3& a, const Double3& b) { return std::sqrt(inner(a - b, a - b)); }
 
 /// A cubic map: its tangents are quadratic.
 struct Cubic {
     PathDerivatives at_zero;
 
     explicit Cubic(Draws& draw) {
-        for (Space3& v : at_zero.first)
+        for (Double3& v : at_zero.first)
             v = any_space(draw);
-        for (Space3& v : at_zero.second)
+        for (Double3& v : at_zero.second)
             v = any_space(draw);
-        for (Space3& v : at_zero.third)
+        for (Double3& v : at_zero.third)
             v = any_space(draw);
     }
 
-    [[nodiscard]] std::array<Space3, 2> tangents(Plane2 at) const {
+    [[nodiscard]] std::array<Double3, 2> tangents(Plane2 at) const {
         const auto& [j, h, t] = at_zero;
         const double xx = 0.5 * at.x * at.x, xy = at.x * at.y, yy = 0.5 * at.y * at.y;
         return {j[0] + at.x * h[0] + at.y * h[1] + (xx * t[0] + xy * t[1] + yy * t[2]),
@@ -95,9 +95,9 @@ TEST_CASE("path derivatives: the scale of the displacements and of the weights d
         }
         PathDerivatives fitted;
         REQUIRE(fit.solve(fitted));
-        for (Space3& v : fitted.second)
+        for (Double3& v : fitted.second)
             v = scale * v;
-        for (Space3& v : fitted.third)
+        for (Double3& v : fitted.third)
             v = scale * scale * v;
         CAPTURE(scale);
         CHECK(furthest_first(fitted, map.at_zero) <= 1e7 * epsilon);
@@ -121,7 +121,7 @@ TEST_CASE("path derivatives: few photons determine the second derivatives only")
         CAPTURE(photons);
         CHECK(furthest_first(fitted, map.at_zero) <= 1e5 * epsilon);
         CHECK(furthest_second(fitted, map.at_zero) <= 1e5 * epsilon);
-        for (const Space3& t : fitted.third)
+        for (const Double3& t : fitted.third)
             CHECK(inner(t, t) == 0);
     }
 }
@@ -158,7 +158,7 @@ TEST_CASE("path derivatives: photons on a line are refused and undetermined thir
     }
     REQUIRE(corners.solve(fitted));
     CHECK(furthest_second(fitted, map.at_zero) <= 1e3 * epsilon);
-    for (const Space3& t : fitted.third)
+    for (const Double3& t : fitted.third)
         CHECK(inner(t, t) == 0);
 }
 
@@ -172,8 +172,8 @@ TEST_CASE("path derivatives: second derivatives in other axes are those of the t
     quadratic.at_zero.third = {};
     const auto tangents = [&](Plane2 v) {
         const auto t = quadratic.tangents(axes(v));
-        return std::array<Space3, 2>{axes.first.x * t[0] + axes.first.y * t[1],
-                                     axes.second.x * t[0] + axes.second.y * t[1]};
+        return std::array<Double3, 2>{axes.first.x * t[0] + axes.first.y * t[1],
+                                      axes.second.x * t[0] + axes.second.y * t[1]};
     };
     const auto zero = tangents({0, 0}), right = tangents({1, 0}), up = tangents({0, 1});
     CHECK(distance(second[0], right[0] - zero[0]) <= 32 * epsilon);
@@ -218,7 +218,7 @@ struct Differences {
     }
 };
 
-[[nodiscard]] Space3 narrowed(const Space& v) {
+[[nodiscard]] Double3 narrowed(const Space& v) {
     return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }
 
@@ -238,7 +238,7 @@ struct Differences {
         PathDerivatives fitted;
         REQUIRE(fit.solve(fitted));
         for (int which = 0; which < 3; ++which) {
-            const Space3 exact = narrowed(differences.second(middle.x, middle.y, which));
+            const Double3 exact = narrowed(differences.second(middle.x, middle.y, which));
             worst = (std::max)(worst, distance(fitted.second[std::size_t(which)], exact));
             largest = (std::max)(largest, std::sqrt(inner(exact, exact)));
         }

@@ -14,11 +14,11 @@ using tests::Draws;
 
 namespace {
 
-const PathDerivatives map{{Space3{2, 0.3, 0}, Space3{-0.4, 1, 0.2}},
-                          {Space3{0.1, 0, 0}, Space3{0, 0.2, 0.1}, Space3{-0.1, 0.05, 0}},
-                          {Space3{0.01, 0, 0}, Space3{0, 0, 0.01}, Space3{0.02, 0, 0}, Space3{0, -0.01, 0}}};
+const PathDerivatives map{{Double3{2, 0.3, 0}, Double3{-0.4, 1, 0.2}},
+                          {Double3{0.1, 0, 0}, Double3{0, 0.2, 0.1}, Double3{-0.1, 0.05, 0}},
+                          {Double3{0.01, 0, 0}, Double3{0, 0, 0.01}, Double3{0.02, 0, 0}, Double3{0, -0.01, 0}}};
 
-using Tangents = std::array<Space3, 2>;
+using Tangents = std::array<Double3, 2>;
 
 [[nodiscard]] TangentResidual residual(Plane2 at, const Tangents& tangents, const PathDerivatives& of) {
     const auto fitted = tangents_at(of, at);
@@ -41,7 +41,7 @@ using Tangents = std::array<Space3, 2>;
 TEST_CASE("roughness: the tangents of a map follow its derivatives") {
     const double d = 0.7;
     const auto along_u = tangents_at(map, {d, 0}), along_v = tangents_at(map, {0, d});
-    const auto check = [](const Space3& a, const Space3& b) { CHECK(inner(a - b, a - b) <= 1e-28); };
+    const auto check = [](const Double3& a, const Double3& b) { CHECK(inner(a - b, a - b) <= 1e-28); };
     check(along_u[0], map.first[0] + (d * map.second[0] + (0.5 * d * d) * map.third[0]));
     check(along_u[1], map.first[1] + (d * map.second[1] + (0.5 * d * d) * map.third[1]));
     check(along_v[0], map.first[0] + (d * map.second[1] + (0.5 * d * d) * map.third[2]));

@@ -194,9 +194,9 @@ TEST_CASE("second order: a footprint has the shape and the shift that the field 
         CHECK(std::abs(spread.xx - expected.xx) <= tolerance);
         CHECK(std::abs(spread.xy - expected.xy) <= tolerance);
         CHECK(std::abs(spread.yy - expected.yy) <= tolerance);
-        const Space3 bend_part = said->shape.xx * said->second[0] +
-                                 (2 * said->shape.xy * said->second[1] + said->shape.yy * said->second[2]);
-        const Space3 shift = (1.0 / 16) * (bend_part + (said->divergence.x * j[0] + said->divergence.y * j[1]));
+        const Double3 bend_part = said->shape.xx * said->second[0] +
+                                  (2 * said->shape.xy * said->second[1] + said->shape.yy * said->second[2]);
+        const Double3 shift = (1.0 / 16) * (bend_part + (said->divergence.x * j[0] + said->divergence.y * j[1]));
         const D moved = splat.deposit->position - photon.deposit->position;
         CHECK(std::abs(moved.x - shift.x) <= 64 * epsilon * 4);
         CHECK(std::abs(moved.y - shift.y) <= 64 * epsilon * 4);

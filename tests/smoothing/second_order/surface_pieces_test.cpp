@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/smoothing/second_order/surface_pieces.hpp"
 
-#include "nephroid/emission/warp.hpp"
 #include "nephroid/sequence/halton.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/sphere_direction.hpp"
 
 #include <doctest/doctest.h>
 
@@ -31,7 +31,7 @@ template <class Surface>
     return points;
 }
 
-constexpr Space3 up{0, 0, 1};
+constexpr Double3 up{0, 0, 1};
 
 /// The points of two pieces, each as a half: piece 0 or 1 by where a point lies.
 template <class IsFirst>
@@ -51,7 +51,7 @@ TEST_CASE("surface pieces: smooth surfaces are whole") {
                  one_by_one)
               .sizes() == std::vector<std::uint32_t>{4000});
     const auto ball = [](double u, double v) {
-        const Space3 n = space3(sphere_direction<glm::dvec3>(u, v));
+        const Double3 n = double3(sphere_direction<glm::dvec3>(u, v));
         return PlaceOnSurface{0.3 * n, n};
     };
     CHECK(Pieces(points_on(ball), one_by_one).sizes() == std::vector<std::uint32_t>{4000});
@@ -76,7 +76,7 @@ TEST_CASE("surface pieces: a step, an edge and a ball above a floor separate the
                      const double x = 2 * u - 1, y = 2 * v - 1, rest = 0.25 - x * x - y * y;
                      if (!(rest > 0))
                          return PlaceOnSurface{{x, y, 0}, up};
-                     const Space3 n = 2 * Space3{x, y, std::sqrt(rest)};
+                     const Double3 n = 2 * Double3{x, y, std::sqrt(rest)};
                      return PlaceOnSurface{{x, y, 1 + std::sqrt(rest)}, n};
                  }),
                  [](const PlaceOnSurface& p) { return p.position.z > 0.5; });

@@ -16,11 +16,20 @@
 
 namespace nephroid {
 
+namespace detail {
 /// A lamp with charts of its own: `charts() -> EmissionCharts<V, F>`.
 template <class L>
 concept HasCharts = requires(const L light) {
     { light.charts() } -> std::convertible_to<EmissionCharts<typename L::vector, typename L::flux_type>>;
 };
+
+/// A lamp with an area whose points have charts: `charts_at(u1, u2, share)` returns those of one point, which emits
+/// this share of the lamp's flux.
+template <class L>
+concept HasLampPoints = requires(const L light, scalar_t<typename L::vector> u) {
+    { light.charts_at(u, u, u) } -> std::convertible_to<EmissionCharts<typename L::vector, typename L::flux_type>>;
+};
+} // namespace detail
 
 /// The chart of a lamp whose domain is a chart: it has two coordinates and no kinks.
 template <class L>
@@ -49,13 +58,6 @@ template <class L>
         }
     return chart;
 }
-
-/// A lamp with an area whose points have charts: `charts_at(u1, u2, share)` returns those of one point, which emits
-/// this share of the lamp's flux.
-template <class L>
-concept HasLampPoints = requires(const L light, scalar_t<typename L::vector> u) {
-    { light.charts_at(u, u, u) } -> std::convertible_to<EmissionCharts<typename L::vector, typename L::flux_type>>;
-};
 
 /// The charts from which sheets can be made, and the power of the lamps that have none.
 template <Vector3 V, Flux F>
@@ -86,9 +88,9 @@ template <class L>
                     found.power_without += charts.power_without;
                 },
                 any);
-    } else if constexpr (HasCharts<L>) {
+    } else if constexpr (detail::HasCharts<L>) {
         add(light.charts());
-    } else if constexpr (HasLampPoints<L>) {
+    } else if constexpr (detail::HasLampPoints<L>) {
         for (std::size_t i = 0; i < lamp_points; ++i) {
             const auto fraction = [number = double(first + i)](double step) {
                 const double x = 0.5 + number * step;

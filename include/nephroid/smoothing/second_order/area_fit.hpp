@@ -16,7 +16,7 @@ namespace nephroid::detail {
 
 /// Two tangents, or how they change.
 struct TangentPair {
-    Space3 u, v;
+    Double3 u, v;
 
     friend TangentPair operator+(const TangentPair& a, const TangentPair& b) { return {a.u + b.u, a.v + b.v}; }
     friend TangentPair operator-(const TangentPair& a, const TangentPair& b) { return {a.u - b.u, a.v - b.v}; }
@@ -27,7 +27,7 @@ struct TangentPair {
 /// A photon's tangents, rotated about its ray so that they are aligned with another photon's.
 ///
 /// @param rotation  `EmissionFrame::rotation_of` this photon, from the other photon's frame
-[[nodiscard]] inline TangentPair turned(const std::array<Space3, 2>& tangents, const PlaneMatrix& rotation) {
+[[nodiscard]] inline TangentPair turned(const std::array<Double3, 2>& tangents, const PlaneMatrix& rotation) {
     return {rotation.first.x * tangents[0] + rotation.second.x * tangents[1],
             rotation.first.y * tangents[0] + rotation.second.y * tangents[1]};
 }
@@ -66,7 +66,7 @@ public:
             return false;
 
         constexpr std::size_t without_third = 9;
-        LeastSquares<unknowns, Space3> equations;
+        LeastSquares<unknowns, Double3> equations;
         double heaviest = 0;
         for (const Neighbour& photon : photons_)
             heaviest = (std::max)(heaviest, photon.weight);
@@ -86,7 +86,7 @@ public:
                 near_photons.push_back({{s.x, s.y, t.x, t.y}, {photon.tangents.u, photon.tangents.v}, {}});
             }
         }
-        std::array<Space3, unknowns> x{};
+        std::array<Double3, unknowns> x{};
         if ((photons_.size() < 12 || !equations.solve(unknowns, x)) &&
             (photons_.size() < 8 || !equations.solve(without_third, x)))
             return false;

@@ -22,19 +22,19 @@ namespace nephroid::detail {
 /// Applies J⁻¹ to a vector after projecting it onto the image of J. Stays finite where J is singular.
 class EmissionPullback {
 public:
-    explicit EmissionPullback(const std::array<Space3, 2>& first)
+    explicit EmissionPullback(const std::array<Double3, 2>& first)
         : first_(first), gram_{inner(first[0], first[0]), inner(first[0], first[1]), inner(first[1], first[1])} {
         determinant_ = (std::max)(gram_.determinant(), 1e-12 * gram_.trace() * gram_.trace());
     }
 
-    [[nodiscard]] Plane2 operator()(const Space3& v) const {
+    [[nodiscard]] Plane2 operator()(const Double3& v) const {
         const double a = inner(first_[0], v), b = inner(first_[1], v);
         const double d = determinant_ > 0 ? 1 / determinant_ : 0;
         return {d * (gram_.yy * a - gram_.xy * b), d * (gram_.xx * b - gram_.xy * a)};
     }
 
 private:
-    std::array<Space3, 2> first_;
+    std::array<Double3, 2> first_;
     Symmetric2 gram_;
     double determinant_;
 };

@@ -54,7 +54,7 @@ struct CurvedDeposit {
 /// @param second         second derivatives of the map by the half tangents, along the surface
 /// @param second_moment  of the kernel
 template <Vector3 V, Flux F, std::size_t N>
-[[nodiscard]] CurvedDeposit<V, F, N> curved(const Deposit<V, F, N>& deposit, const std::array<Space3, 3>& second,
+[[nodiscard]] CurvedDeposit<V, F, N> curved(const Deposit<V, F, N>& deposit, const std::array<Double3, 3>& second,
                                             const CurvedFootprints& policy, double second_moment) {
     using T = scalar_t<V>;
     CurvedDeposit<V, F, N> result;
@@ -68,20 +68,19 @@ template <Vector3 V, Flux F, std::size_t N>
     result.count = disk_pieces.size();
     constexpr double of_centres = 3.0 / 32; // their variance; a quarter of a biweight's own makes up the rest of 1/8
     const double size = std::sqrt(second_moment / (of_centres + 0.25 * second_moment));
-    const auto world = [](const Space3& v) -> V { return make_vector<V>(T(v.x), T(v.y), T(v.z)); };
-    const Space3 mean = (0.5 * square(size) * of_centres) * (second[0] + second[2]);
+    const Double3 mean = (0.5 * square(size) * of_centres) * (second[0] + second[2]);
     for (std::size_t i = 0; i < result.count; ++i) {
         const Plane2 q = size * disk_pieces[i].centre;
-        const Space3 by_u = q.x * second[0] + q.y * second[1], by_v = q.x * second[1] + q.y * second[2];
+        const Double3 by_u = q.x * second[0] + q.y * second[1], by_v = q.x * second[1] + q.y * second[2];
         Deposit<V, F, N>& piece = result.all[i];
         piece = deposit;
         piece.flux = static_cast<F>(deposit.flux * T(disk_pieces[i].weight));
         piece.position = deposit.position +
                          (T(0.5 * q.x) * deposit.d_position[0] + T(0.5 * q.y) * deposit.d_position[1]) +
-                         world(0.5 * (q.x * by_u + q.y * by_v) - mean);
+                         to_world<V>(0.5 * (q.x * by_u + q.y * by_v) - mean);
         const T radius = T(0.5 * size);
-        piece.d_position[0] = radius * (deposit.d_position[0] + world(2 * by_u));
-        piece.d_position[1] = radius * (deposit.d_position[1] + world(2 * by_v));
+        piece.d_position[0] = radius * (deposit.d_position[0] + to_world<V>(2 * by_u));
+        piece.d_position[1] = radius * (deposit.d_position[1] + to_world<V>(2 * by_v));
         for (std::size_t a = 2; a < N; ++a)
             piece.d_position[a] = radius * deposit.d_position[a];
     }

@@ -22,10 +22,10 @@ namespace nephroid::detail {
 
 /// J: the halves of a deposit's first two tangents, which are its derivatives by the units of the emission frame.
 template <Vector3 V, Flux F, std::size_t N>
-[[nodiscard]] std::array<Space3, 2> half_tangents(const Deposit<V, F, N>& deposit) {
+[[nodiscard]] std::array<Double3, 2> half_tangents(const Deposit<V, F, N>& deposit) {
     using t = vector_traits<V>;
     const auto half = [](const V& v) {
-        return Space3{0.5 * double(t::x(v)), 0.5 * double(t::y(v)), 0.5 * double(t::z(v))};
+        return Double3{0.5 * double(t::x(v)), 0.5 * double(t::y(v)), 0.5 * double(t::z(v))};
     };
     return {half(deposit.d_position[0]), half(deposit.d_position[1])};
 }
@@ -34,10 +34,10 @@ template <Vector3 V, Flux F, std::size_t N>
 struct PathSample {
     EmissionSample sample;
     EmissionFrame frame;
-    std::uint32_t signature = 0;      ///< of its path (PathSignature)
-    bool has_landed = false;          ///< whether it reached a surface that receives it
-    std::array<Space3, 2> tangents{}; ///< J, if it has landed
-    Space3 place{};                   ///< where, if it has landed
+    std::uint32_t signature = 0;       ///< of its path (PathSignature)
+    bool has_landed = false;           ///< whether it reached a surface that receives it
+    std::array<Double3, 2> tangents{}; ///< J, if it has landed
+    Double3 place{};                   ///< where, if it has landed
 };
 
 /// A photon's sample of the map, and the deposit to splat.
@@ -53,7 +53,7 @@ struct TracedPhoton : PathSample {
         : PathSample{drawn, emitted, path, landed.has_value(), {}, {}}, deposit(landed) {
         if (landed) {
             tangents = half_tangents(*landed);
-            place = space3(landed->position);
+            place = double3(landed->position);
         }
     }
 };

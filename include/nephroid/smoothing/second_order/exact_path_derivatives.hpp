@@ -27,7 +27,7 @@ namespace nephroid {
 
 /// The end of a photon's path, and its derivatives by the photon's emission coordinates.
 struct ExactPath {
-    detail::Space3 position; ///< where the photon landed
+    detail::Double3 position; ///< where the photon landed
     detail::PathDerivatives
         map; ///< in the photon's own EmissionFrame; `third` is 0 unless the scalar is a dual of duals
     std::uint32_t signature = 0; ///< of the path (PathSignature): the same as the plain walk's
@@ -104,7 +104,7 @@ template <Vector3 D, Flux G, Vector3 V, Flux F, std::size_t N>
 
 /// A part of a vector, such as a derivative; `part` takes it from each component.
 template <Vector3 D, class Part>
-[[nodiscard]] Space3 part_of(const D& v, const Part& part) {
+[[nodiscard]] Double3 part_of(const D& v, const Part& part) {
     using t = vector_traits<D>;
     return {double(part(t::x(v))), double(part(t::y(v))), double(part(t::z(v)))};
 }

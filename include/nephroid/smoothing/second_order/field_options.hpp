@@ -25,11 +25,11 @@ struct FieldOptions {
 
 /// The value of a field for one photon, in its own emission frame.
 struct FieldSample {
-    Symmetric2 shape;             ///< S, the shape of the footprint
-    Plane2 divergence;            ///< ∂_a S_ab
-    std::array<Space3, 3> second; ///< H, the second derivatives of the map
-    bool as_published = false;    ///< whether photons contradict the group's map in so many cells that all are splatted
-                                  ///< where they land
+    Symmetric2 shape;              ///< S, the shape of the footprint
+    Plane2 divergence;             ///< ∂_a S_ab
+    std::array<Double3, 3> second; ///< H, the second derivatives of the map
+    bool as_published = false; ///< whether photons contradict the group's map in so many cells that all are splatted
+                               ///< where they land
 };
 
 } // namespace nephroid::detail

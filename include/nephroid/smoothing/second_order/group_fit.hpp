@@ -46,8 +46,8 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
                                inner(photon.place, photon.place)))
                 continue; // one invalid photon must not spoil its neighbours
             const PlaneMatrix axes = photon.frame.axes_of(cell.frame);
-            const std::array<Space3, 2> by_axes{axes.first.x * tangents[0] + axes.first.y * tangents[1],
-                                                axes.second.x * tangents[0] + axes.second.y * tangents[1]};
+            const std::array<Double3, 2> by_axes{axes.first.x * tangents[0] + axes.first.y * tangents[1],
+                                                 axes.second.x * tangents[0] + axes.second.y * tangents[1]};
             // Photons with longer tangents than the middle's weigh less: beside a pole of the map a few of them would
             // dominate the fit.
             const double size2 = inner(by_axes[0], by_axes[0]) + inner(by_axes[1], by_axes[1]);

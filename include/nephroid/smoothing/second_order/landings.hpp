@@ -24,7 +24,7 @@ public:
     /// @param at        displacement of the photon from the point, in the frame of the fit
     /// @param tangents  its own, by the axes of that frame
     /// @param weight    > 0
-    void add(Plane2 at, const Space3& place, const std::array<Space3, 2>& tangents, double weight) {
+    void add(Plane2 at, const Double3& place, const std::array<Double3, 2>& tangents, double weight) {
         landings_.push_back({at, place, tangents, weight});
     }
 
@@ -38,27 +38,27 @@ public:
     /// @param map           derivatives at the point, fitted to tangents
     /// @param largest_part  of the root mean square distance, >= 0
     [[nodiscard]] bool contradict(const PathDerivatives& map, double largest_part) const {
-        Space3 sum{};
+        Double3 sum{};
         double weights = 0, largest = 0;
         for (const Landing& landing : landings_) {
-            const Space3& p = landing.place;
+            const Double3& p = landing.place;
             sum += landing.weight * (p - displacement_by(map, landing.at));
             weights += landing.weight;
             largest = (std::max)({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
         }
         if (!(weights > 0) || !std::isfinite(largest_part))
             return false;
-        const Space3 middle = (1 / weights) * sum;
+        const Double3 middle = (1 / weights) * sum;
         const double stretch2 = 0.5 * (inner(map.first[0], map.first[0]) + inner(map.first[1], map.first[1]));
         constexpr double rounding = 2e-6;          // of a place, if the renderer's scalar is a float
         double missed = 0, steps = 0, scatter = 0; // squared
         for (const Landing& landing : landings_) {
-            const Space3 miss = landing.place - displacement_by(map, landing.at) - middle;
+            const Double3 miss = landing.place - displacement_by(map, landing.at) - middle;
             missed += landing.weight * inner(miss, miss);
             steps += landing.weight * inner(landing.at, landing.at);
             const auto fitted = tangents_at(map, landing.at);
             for (std::size_t i = 0; i < 2; ++i) {
-                const Space3 off = landing.tangents[i] - fitted[i];
+                const Double3 off = landing.tangents[i] - fitted[i];
                 scatter += 0.5 * landing.weight * inner(off, off);
             }
         }
@@ -69,8 +69,8 @@ public:
 private:
     struct Landing {
         Plane2 at;
-        Space3 place;
-        std::array<Space3, 2> tangents;
+        Double3 place;
+        std::array<Double3, 2> tangents;
         double weight;
     };
     std::vector<Landing> landings_;

@@ -2,9 +2,9 @@
 /// @file  Fits the second and third derivatives of the map from light to surface to photons and their tangents.
 #pragma once
 
+#include "nephroid/vector/double3.hpp"
 #include "nephroid/vector/least_squares.hpp"
 #include "nephroid/vector/plane.hpp"
-#include "nephroid/vector/traits.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,36 +13,15 @@
 
 namespace nephroid::detail {
 
-/// A vector of space in double precision, whatever the renderer's.
-struct Space3 {
-    double x = 0, y = 0, z = 0;
-
-    Space3& operator+=(const Space3& o) {
-        x += o.x, y += o.y, z += o.z;
-        return *this;
-    }
-    friend Space3 operator+(const Space3& a, const Space3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-    friend Space3 operator-(const Space3& a, const Space3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-    friend Space3 operator*(double s, const Space3& a) { return {s * a.x, s * a.y, s * a.z}; }
-    [[nodiscard]] friend double inner(const Space3& a, const Space3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-};
-
-/// A renderer's vector in double precision.
-template <Vector3 V>
-[[nodiscard]] Space3 space3(const V& v) {
-    using t = vector_traits<V>;
-    return {double(t::x(v)), double(t::y(v)), double(t::z(v))};
-}
-
 /// Derivatives of the landing point F by the two coordinates of an EmissionFrame, at a point of the domain.
 struct PathDerivatives {
-    std::array<Space3, 2> first;  ///< J: F_u, F_v
-    std::array<Space3, 3> second; ///< H: F_uu, F_uv, F_vv
-    std::array<Space3, 4> third;  ///< T: F_uuu, F_uuv, F_uvv, F_vvv; 0 where too few photons determined them
+    std::array<Double3, 2> first;  ///< J: F_u, F_v
+    std::array<Double3, 3> second; ///< H: F_uu, F_uv, F_vv
+    std::array<Double3, 4> third;  ///< T: F_uuu, F_uuv, F_uvv, F_vvv; 0 where too few photons determined them
 };
 
 /// J at a displacement from the point of the derivatives.
-[[nodiscard]] inline std::array<Space3, 2> tangents_at(const PathDerivatives& map, Plane2 at) {
+[[nodiscard]] inline std::array<Double3, 2> tangents_at(const PathDerivatives& map, Plane2 at) {
     const double xx = 0.5 * at.x * at.x, xy = at.x * at.y, yy = 0.5 * at.y * at.y;
     const auto& [h_uu, h_uv, h_vv] = map.second;
     const auto& [t_uuu, t_uuv, t_uvv, t_vvv] = map.third;
@@ -51,7 +30,7 @@ struct PathDerivatives {
 }
 
 /// F(δ) − F(0): the displacement of where photons land.
-[[nodiscard]] inline Space3 displacement_by(const PathDerivatives& map, Plane2 at) {
+[[nodiscard]] inline Double3 displacement_by(const PathDerivatives& map, Plane2 at) {
     const double x = at.x, y = at.y;
     const auto& [h_uu, h_uv, h_vv] = map.second;
     const auto& [t_uuu, t_uuv, t_uvv, t_vvv] = map.third;
@@ -63,7 +42,7 @@ struct PathDerivatives {
 /// Second derivatives by the coordinates of another frame.
 ///
 /// @param axes  takes coordinates in the other frame to those of `second`
-[[nodiscard]] inline std::array<Space3, 3> turned(const std::array<Space3, 3>& second, const PlaneMatrix& axes) {
+[[nodiscard]] inline std::array<Double3, 3> turned(const std::array<Double3, 3>& second, const PlaneMatrix& axes) {
     const auto along = [&](Plane2 a, Plane2 b) {
         return (a.x * b.x) * second[0] + ((a.x * b.y + a.y * b.x) * second[1] + (a.y * b.y) * second[2]);
     };
@@ -78,7 +57,7 @@ public:
     /// @param at        displacement of the photon from the point at which the derivatives are wanted
     /// @param tangents  the photon's J, in the axes of the fit
     /// @param weight    > 0
-    void add(Plane2 at, const std::array<Space3, 2>& tangents, double weight) {
+    void add(Plane2 at, const std::array<Double3, 2>& tangents, double weight) {
         const double xx = 0.5 * at.x * at.x, xy = at.x * at.y, yy = 0.5 * at.y * at.y;
         equations_.add({1, 0, at.x, at.y, 0, xx, xy, yy, 0}, tangents[0], weight);
         equations_.add({0, 1, 0, at.x, at.y, 0, xx, xy, yy}, tangents[1], weight);
@@ -88,7 +67,7 @@ public:
     /// @return  whether the photons determine at least J and H
     [[nodiscard]] bool solve(PathDerivatives& result) const {
         constexpr std::size_t unknowns = 9, without_third = 5;
-        std::array<Space3, unknowns> x{};
+        std::array<Double3, unknowns> x{};
         if ((photons_ < 8 || !equations_.solve(unknowns, x)) && (photons_ < 4 || !equations_.solve(without_third, x)))
             return false;
         result = {{x[0], x[1]}, {x[2], x[3], x[4]}, {x[5], x[6], x[7], x[8]}};
@@ -96,7 +75,7 @@ public:
     }
 
 private:
-    LeastSquares<9, Space3> equations_;
+    LeastSquares<9, Double3> equations_;
     std::size_t photons_ = 0;
 };
 

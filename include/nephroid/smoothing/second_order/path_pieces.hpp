@@ -27,7 +27,7 @@ public:
         if constexpr (HasPosition<Hit, V>)
             if (!first_) {
                 const double side = from_front ? 1 : -1;
-                first_ = {space3(V(hit.position)), side * space3(V(hit.geometric_normal))};
+                first_ = {double3(V(hit.position)), side * double3(V(hit.geometric_normal))};
             }
     }
 
@@ -109,7 +109,7 @@ private:
 
     template <class Photon>
     [[nodiscard]] static std::optional<PlaceOnSurface> landing(const Photon& photon) {
-        return PlaceOnSurface{space3(photon.deposit->position), space3(photon.deposit->normal)};
+        return PlaceOnSurface{double3(photon.deposit->position), double3(photon.deposit->normal)};
     }
 
     /// The signature of two pieces; unchanged for the largest ones, which have the number 0.

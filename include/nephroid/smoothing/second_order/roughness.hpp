@@ -12,7 +12,7 @@ namespace nephroid::detail {
 /// A photon's J, and its difference from the fitted map's.
 struct TangentResidual {
     std::array<double, 4> at; ///< emission coordinates, in u0; 0 for those that a light does not have
-    std::array<Space3, 2> tangents, residual;
+    std::array<Double3, 2> tangents, residual;
 };
 
 /// The mean over the photons of |J⁻¹ΔJ|²/|δ|², per u0². ΔJ is the difference between the residuals of a photon
@@ -32,7 +32,7 @@ struct TangentResidual {
             sum += square(b.at[axis] - a.at[axis]);
         return sum;
     };
-    const auto size2 = [](const std::array<Space3, 2>& tangents, const std::array<Space3, 2>& jump) {
+    const auto size2 = [](const std::array<Double3, 2>& tangents, const std::array<Double3, 2>& jump) {
         const EmissionPullback pull_back(tangents);
         const Plane2 u = pull_back(jump[0]), v = pull_back(jump[1]);
         return inner(u, u) + inner(v, v);
@@ -48,7 +48,7 @@ struct TangentResidual {
             }
         if (nearest == nullptr || !(distance2 > 0))
             continue;
-        const std::array<Space3, 2> jump{nearest->residual[0] - a.residual[0], nearest->residual[1] - a.residual[1]};
+        const std::array<Double3, 2> jump{nearest->residual[0] - a.residual[0], nearest->residual[1] - a.residual[1]};
         // The smaller of the two values counts: relative to a collapsed footprint, any jump is large.
         sum += (std::min)(limit, (std::min)(size2(a.tangents, jump), size2(nearest->tangents, jump)) / distance2);
     }

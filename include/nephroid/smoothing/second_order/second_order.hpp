@@ -53,7 +53,7 @@ public:
     /// @param photon  emitted with smoothing 1; its deposit must not be empty
     /// @param second  if not null, gets the map's second derivatives (`shift_deposit`); 0 where they are not known
     template <Flux F, std::size_t N>
-    AppliedFootprint apply(TracedPhoton<V, F, N>& photon, std::array<Space3, 3>* second = nullptr) const {
+    AppliedFootprint apply(TracedPhoton<V, F, N>& photon, std::array<Double3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
         const std::optional<FieldSample> found = photon.frame.is_regular() ? fields_.at(photon) : std::nullopt;
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {

@@ -21,18 +21,10 @@
 
 namespace nephroid::detail {
 
-/// Converts a vector to the renderer's type.
-template <Vector3 V>
-[[nodiscard]] V to_world(const Space3& v) {
-    using T = scalar_t<V>;
-    return make_vector<V>(T(v.x), T(v.y), T(v.z));
-}
-
 /// The part of a vector in the tangent plane.
 template <Vector3 V>
-[[nodiscard]] Space3 along_surface(const Space3& v, const V& normal) {
-    using t = vector_traits<V>;
-    const Space3 n{double(t::x(normal)), double(t::y(normal)), double(t::z(normal))};
+[[nodiscard]] Double3 along_surface(const Double3& v, const V& normal) {
+    const Double3 n = double3(normal);
     return v - inner(v, n) * n;
 }
 
@@ -58,7 +50,7 @@ struct ShiftLimits {
 /// @return  whether the shift was shortened
 template <Vector3 V, Flux F, std::size_t N>
 bool shift_deposit(Deposit<V, F, N>& deposit, const FieldSample& found, double second_moment, const ShiftLimits& limits,
-                   std::array<Space3, 3>* second) {
+                   std::array<Double3, 3>* second) {
     using T = scalar_t<V>;
     const auto tangents = half_tangents(deposit);
     const double factor = 0.5 * second_moment;
@@ -71,21 +63,21 @@ bool shift_deposit(Deposit<V, F, N>& deposit, const FieldSample& found, double s
     if (bounded)
         drift = (0.25 / std::sqrt(size2)) * drift;
     // The part of the shift due to the bending map.
-    const Space3 bend = along_surface(
+    const Double3 bend = along_surface(
         factor * (s.xx * found.second[0] + ((2 * s.xy) * found.second[1] + s.yy * found.second[2])), deposit.normal);
 
     // With S = L Lᵀ, the new tangents are J L.
     const double l00 = std::sqrt(s.xx), l10 = s.xy / l00, l11 = std::sqrt(s.determinant()) / l00;
-    const Space3 a = l00 * tangents[0] + l10 * tangents[1], b = l11 * tangents[1];
+    const Double3 a = l00 * tangents[0] + l10 * tangents[1], b = l11 * tangents[1];
     const double reach = (std::min)(std::sqrt((std::max)(inner(a, a), inner(b, b))), limits.largest_reach);
     const double longest = limits.largest_shift * reach;
-    const Space3 shift = bend + (drift.x * tangents[0] + drift.y * tangents[1]);
+    const Double3 shift = bend + (drift.x * tangents[0] + drift.y * tangents[1]);
     const double distance = std::sqrt(inner(shift, shift));
     const double kept = distance > longest ? longest / distance : 1;
     bounded = bounded || distance > longest;
     if (second != nullptr) {
         *second = turned(found.second, {{l00, l10}, {0, l11}});
-        for (Space3& h : *second)
+        for (Double3& h : *second)
             h = along_surface(kept * h, deposit.normal);
     }
 

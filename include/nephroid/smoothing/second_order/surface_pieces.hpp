@@ -22,7 +22,7 @@ namespace nephroid::detail {
 
 /// A place on a surface, and the unit normal on the side that was met.
 struct PlaceOnSurface {
-    Space3 position, normal;
+    Double3 position, normal;
 };
 
 /// Whether two points may lie on one smooth surface. A point of an arc lies off another point's tangent by half of the
@@ -31,7 +31,7 @@ struct PlaceOnSurface {
 [[nodiscard]] inline bool may_share_surface(const PlaceOnSurface& a, const PlaceOnSurface& b) {
     if (!(inner(a.normal, b.normal) > 0.7)) // an edge of 45 degrees
         return false;
-    const Space3 away = b.position - a.position, turn = b.normal - a.normal;
+    const Double3 away = b.position - a.position, turn = b.normal - a.normal;
     const double height = (std::max)(std::abs(inner(a.normal, away)), std::abs(inner(b.normal, away)));
     const double rounding = 2e-6 * (std::max)({std::abs(a.position.x), std::abs(a.position.y), std::abs(a.position.z)});
     return height <= std::sqrt(inner(away, away)) * (0.1 + std::sqrt(inner(turn, turn))) + rounding;
@@ -47,7 +47,8 @@ public:
 
     /// @param points  finite
     SurfacePieces(std::vector<PlaceOnSurface> points, const TaskRunner& run)
-        : points_(std::move(points)), tree_(points_.size(), [this](std::size_t i) { return world(points_[i]); }) {
+        : points_(std::move(points)),
+          tree_(points_.size(), [this](std::size_t i) { return to_world<V>(points_[i].position); }) {
         std::vector<std::array<std::uint32_t, linked>> links(points_.size());
         for_each_index(run, points_.size(), 256, [&](std::size_t i) { links[i] = neighbours_of(i); });
         std::vector<std::uint32_t> parents(points_.size());
@@ -75,7 +76,7 @@ public:
     /// the eight nearest may.
     [[nodiscard]] std::uint32_t piece_at(const PlaceOnSurface& point) const {
         std::array<Neighbour<T>, linked> found;
-        const std::size_t count = tree_.nearest(tree_.relative(world(point)), found);
+        const std::size_t count = tree_.nearest(tree_.relative(to_world<V>(point.position)), found);
         double nearest = std::numeric_limits<double>::infinity();
         std::uint32_t piece = unknown;
         for (std::size_t i = 0; i < count; ++i) {
@@ -91,13 +92,9 @@ public:
 private:
     static constexpr std::size_t linked = 8; // nearest points; random points of a plane are connected by six
 
-    [[nodiscard]] static V world(const PlaceOnSurface& p) {
-        return make_vector<V>(T(p.position.x), T(p.position.y), T(p.position.z));
-    }
-
     [[nodiscard]] std::array<std::uint32_t, linked> neighbours_of(std::size_t point) const {
         std::array<Neighbour<T>, linked> found;
-        const std::size_t count = tree_.nearest(tree_.relative(world(points_[point])), found);
+        const std::size_t count = tree_.nearest(tree_.relative(to_world<V>(points_[point].position)), found);
         std::array<std::uint32_t, linked> neighbours;
         for (std::size_t i = 0; i < linked; ++i) {
             neighbours[i] = i < count ? tree_.index(found[i].slot) : unknown;

@@ -4,13 +4,19 @@
 
 #include "nephroid/vector/algebra.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace nephroid::detail {
 
 struct Double3 {
     double x = 0, y = 0, z = 0;
+
+    Double3& operator+=(const Double3& o) {
+        x += o.x, y += o.y, z += o.z;
+        return *this;
+    }
+    friend Double3 operator+(const Double3& a, const Double3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+    friend Double3 operator-(const Double3& a, const Double3& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+    friend Double3 operator*(double s, const Double3& a) { return {s * a.x, s * a.y, s * a.z}; }
+    [[nodiscard]] friend double inner(const Double3& a, const Double3& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 };
 
 } // namespace nephroid::detail
@@ -27,10 +33,18 @@ struct nephroid::vector_traits<nephroid::detail::Double3> {
 
 namespace nephroid::detail {
 
+/// A renderer's vector in double precision.
 template <Vector3 V>
 [[nodiscard]] Double3 double3(const V& v) {
     using t = vector_traits<V>;
     return {double(t::x(v)), double(t::y(v)), double(t::z(v))};
+}
+
+/// Back to the renderer's type.
+template <Vector3 V>
+[[nodiscard]] V to_world(const Double3& v) {
+    using T = scalar_t<V>;
+    return make_vector<V>(T(v.x), T(v.y), T(v.z));
 }
 
 /// a × b, each component the difference of two rounded products: enough for areas and normals of patches.
