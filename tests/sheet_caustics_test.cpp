@@ -4,6 +4,7 @@
 #include "nephroid/emission/light/directional.hpp"
 #include "nephroid/pass/diagnose.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/vertex.hpp"
 
 #include <doctest/doctest.h>
 
@@ -122,9 +123,7 @@ struct Middle {
 
 constexpr int side = 32; // pixels
 
-struct Vertex {
-    Vec3 position, normal;
-};
+using Vertex = tests::Vertex<Vec3>;
 
 [[nodiscard]] std::vector<Vertex> floor_vertices() {
     std::vector<Vertex> vertices;

@@ -55,9 +55,10 @@ static_assert(Light<Lights>);
 static_assert(Light<StandardLights<glm::vec3, glm::vec3>>);
 static_assert(Light<LightSet<Laser>>);
 
-constexpr detail::EmissionDomains of_point = detail::emission_domains<Point>, of_laser = detail::emission_domains<Laser>,
-                          of_both = detail::emission_domains<LightSet<Point, DiskLight<D, double>>>,
-                          of_any = detail::emission_domains<LightSet<Point, Laser>>;
+constexpr detail::EmissionDomains of_point = detail::emission_domains<Point>,
+                                  of_laser = detail::emission_domains<Laser>,
+                                  of_both = detail::emission_domains<LightSet<Point, DiskLight<D, double>>>,
+                                  of_any = detail::emission_domains<LightSet<Point, Laser>>;
 static_assert(of_point.two && !of_point.four && !of_point.others);
 static_assert(!of_laser.two && !of_laser.four && of_laser.others); // it declares no domain
 static_assert(of_both.two && of_both.four && !of_both.others);
@@ -154,7 +155,8 @@ TEST_CASE("light set: no lights and lights of impossible power are refused") {
 TEST_CASE("light set: lights of three tangents make a set, with extras or without") {
     using Set = LightSet<ColouredSun<D>, PlainSun>;
     static_assert(Light<Set> && emitted_t<Set>::tangent_count == 3);
-    static_assert(detail::emission_domains<Set>.two && detail::emission_domains<Set>.others && !detail::emission_domains<Set>.four);
+    static_assert(detail::emission_domains<Set>.two && detail::emission_domains<Set>.others &&
+                  !detail::emission_domains<Set>.four);
     const Set set({ColouredSun<D>(), PlainSun()});
     for (const double choice : {0.25, 0.75}) {
         GivenSamples samples({choice, 0.3, 0.4, 0.5});

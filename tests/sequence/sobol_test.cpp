@@ -91,7 +91,8 @@ TEST_CASE("sobol_bits: the first points are the published ones") {
 TEST_CASE("sobol_bits: agrees with the recurrence on integers, for all dimensions and index bits") {
     for (std::uint32_t d = 0; d < sobol_dimensions; ++d) {
         for (std::uint32_t k = 0; k < 300; ++k) {
-            const std::uint32_t index = k < 32 ? std::uint32_t{1} << k : static_cast<std::uint32_t>(detail::mix_bits(k));
+            const std::uint32_t index =
+                k < 32 ? std::uint32_t{1} << k : static_cast<std::uint32_t>(detail::mix_bits(k));
             CHECK(sobol_bits(index, d) == slow_sobol(index, d));
         }
     }

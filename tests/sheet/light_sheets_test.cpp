@@ -4,6 +4,7 @@
 #include "nephroid/emission/light/directional.hpp"
 #include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/vertex.hpp"
 
 #include <doctest/doctest.h>
 
@@ -64,9 +65,7 @@ struct Shelves {
     }
 };
 
-struct Vertex {
-    Vec3 position, normal;
-};
+using Vertex = tests::Vertex<Vec3>;
 
 constexpr int side = 32; // pixels
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "nephroid/sheet/patch_blocks.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/vertex.hpp"
 
 #include <doctest/doctest.h>
 
@@ -17,9 +18,7 @@ using namespace nephroid::detail;
 namespace {
 
 template <class T>
-struct Vertex {
-    glm::vec<3, T> position, normal;
-};
+using Vertex = tests::Vertex<glm::vec<3, T>>;
 
 /// Pixels of the unit square at a height, n × n.
 template <class T>

@@ -3,6 +3,7 @@
 #include "nephroid/caustics.hpp"
 #include "nephroid/emission/light/standard_lights.hpp"
 #include "transport/tiny_scenes.hpp"
+#include "support/vertex.hpp"
 
 #include <doctest/doctest.h>
 
@@ -68,9 +69,7 @@ struct MaterialScene {
     }
 };
 
-struct Vertex {
-    V position, normal;
-};
+using Vertex = tests::Vertex<V>;
 
 /// The irradiance of vertices, of a lamp of unit intensity at (0, 0, 1) below a mirror at height 4.
 template <class Scene>

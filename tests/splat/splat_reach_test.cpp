@@ -4,6 +4,7 @@
 #include "support/space.hpp"
 
 #include "nephroid/vector/glm.hpp"
+#include "support/vertex.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,9 +24,7 @@ template <class T>
 using Vec = glm::vec<3, T>;
 
 template <class T>
-struct Vertex {
-    Vec<T> position, normal;
-};
+using Vertex = tests::Vertex<Vec<T>>;
 
 template <class T>
 Vec<T> unit(Draws& draw) {

@@ -35,8 +35,9 @@ template <Scalar T>
 /// small enough that neither a flight, nor a surface, nor the fourth powers behind an ellipse's radii (in `wider_t`)
 /// overflow.
 template <Scalar T>
-inline constexpr T longest_tangent = power_of_two<T>(
-    (std::min)(std::numeric_limits<T>::max_exponent / 2, std::numeric_limits<wider_t<T>>::max_exponent / 4) - 12);
+inline constexpr T longest_tangent = power_of_two<T>((std::min)(std::numeric_limits<T>::max_exponent / 2,
+                                                                std::numeric_limits<wider_t<T>>::max_exponent / 4) -
+                                                     12);
 
 /// Scales a tangent down to `longest_tangent` where it is longer. Between curved mirrors tangents grow exponentially,
 /// and would overflow to NaN. Such a footprint stays far too long, so the excess policy acts on it

@@ -4,6 +4,7 @@
 #include "nephroid/emission/light/standard_lights.hpp"
 #include "support/is_sanitized.hpp"
 #include "transport/tiny_scenes.hpp"
+#include "support/vertex.hpp"
 
 #include <doctest/doctest.h>
 
@@ -23,9 +24,7 @@ constexpr double mirror_height = 2, lamp_height = 1;
 /// From the lamp's mirror image to the floor.
 constexpr double image_height = 2 * mirror_height - lamp_height;
 
-struct Vertex {
-    V position, normal;
-};
+using Vertex = tests::Vertex<V>;
 
 /// Any lamp: the picture is compiled once for all.
 using Lamp = StandardLights<V, double>;
