@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// @file  The whole library but for the vectors: include nephroid/vector/glm.hpp beside it, or specialise
-///        `nephroid::vector_traits` for your own (nephroid/vector/traits.hpp).
+/// @file  The whole library but for the vectors and light sheets (nephroid/sheet_caustics.hpp): include
+///        nephroid/vector/glm.hpp beside it, or specialise `nephroid::vector_traits` for your own
+///        (nephroid/vector/traits.hpp).
 #pragma once
 
 #include "nephroid/caustics.hpp"
