@@ -42,7 +42,7 @@ SheetStatistics light_sheets(const S& scene, const L& light, Sums<V, F, R>& sums
     if (sums.map().tree().empty())
         return statistics;
     const detail::ReceiverPixels<V> pixels(sums.map(), checked);
-    const double total = double(pass.total == 0 ? pass.count : pass.total);
+    const double total = double(pass.emitted_in_all());
     const std::uint64_t number = pass.first / pass.count; // of a pass among equal ones
     const LampCharts<V, F> lamps = charts_of(light, options.lamp_points, std::size_t(number) * options.lamp_points);
     const EmissionCharts<V, F>& charts = lamps.charts;
