@@ -67,10 +67,7 @@ public:
     template <class Visit>
     bool add_triangle(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
                       double thickness, SheetPieces<V, F>& pieces, const Visit& visit) {
-        Box<double> box = box_about(corners[0]);
-        for (const Double3& c : corners)
-            include(box, c);
-        if (!find_leaves(grown(box, thickness)))
+        if (!find_leaves(grown(box_about(corners), thickness)))
             return false;
         thickness_ = thickness > 0 ? thickness : pixel_ / 50;
         return add_loose(corners, normal, direction, flux, pieces, visit);
@@ -166,10 +163,7 @@ private:
     bool add_loose(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
                    SheetPieces<V, F>& pieces, const Visit& visit) {
         SheetBlock<V, F> block{};
-        Box<double> box = box_about(corners[0]);
-        for (const Double3& c : corners)
-            include(box, c);
-        block.box = narrowed_box<T>(grown(box, thickness_));
+        block.box = narrowed_box<T>(grown(box_about(corners), thickness_));
         block.middle = {T(corners[0].x), T(corners[0].y), T(corners[0].z)};
         block.normal = {T(normal.x), T(normal.y), T(normal.z)};
         block.thickness = T(thickness_);

@@ -23,6 +23,15 @@ inline void include(Box<double>& box, const Double3& p) {
     }
 }
 
+/// The box of some points.
+template <std::size_t N>
+[[nodiscard]] Box<double> box_about(const std::array<Double3, N>& points) {
+    Box<double> box = box_about(points[0]);
+    for (const Double3& p : points)
+        include(box, p);
+    return box;
+}
+
 [[nodiscard]] inline Box<double> grown(Box<double> box, double by) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         box.low[axis] -= by, box.high[axis] += by;
