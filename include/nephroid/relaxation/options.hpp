@@ -46,7 +46,9 @@ struct RelaxationOptions {
     unsigned feature_neighbours = 150; ///< K of the feature search, 16 to 4096
     /// α and β of eq. 8: a photon is held fully where the densities of the two sides of a feature have a ratio of at
     /// most α, and not at all from β on; 0 <= α < β <= 1. The paper: α = 0 for soft caustics, 0.1 to 0.2 for sharp
-    /// ones. So an edge is blurred where the densities of its sides differ by a factor of less than 1/β.
+    /// ones. So an edge is held fully where the densities of its sides differ by a factor of 1/α = 5, and not at all
+    /// below 1/β = 2.9: 20 iterations of the paper's then make it 14 spacings wide, from 10% to 90%. Weaker edges take
+    /// more photons to be found: α = 0.6, β = 0.75 and 400 `feature_neighbours` hold those of a factor of 2.
     double alpha = 0.2, beta = 0.35;
     FeatureCriterion criterion = FeatureCriterion::likelihood;
     /// How much evidence a feature needs: the logarithm of how many times more likely two densities (or fluxes) make a
