@@ -16,8 +16,8 @@
 
 namespace nephroid::detail {
 
-/// Sets the leash's radius of each photon to that of its disc. Photons in one place have no disc: theirs is the
-/// distance to the nearest photon elsewhere. A photon with fewer than K + 1 others keeps 0, and so stays.
+/// Sets the leash's radius of each photon to that of its disc. Photons in one place have no disc: their
+/// radius is the distance to the nearest photon elsewhere. A photon with fewer than K + 1 others keeps 0, and so stays.
 ///
 /// @param neighbours  K
 /// @param searched    how many neighbours to search for, above K

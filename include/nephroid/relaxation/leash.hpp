@@ -29,7 +29,7 @@ public:
     void set_radius(std::size_t slot, T radius) { radius_[slot] = radius; }
     [[nodiscard]] T radius(std::size_t slot) const { return radius_[slot]; }
 
-    /// Where a photon goes: to `to`, or nowhere if that is too far from where it began.
+    /// Where a photon may go: `to`, unless that is too far from where it began; then it stays.
     template <Vector3 V>
     [[nodiscard]] V held(std::size_t slot, const V& from, const V& to) const {
         const V start = make_vector<V>(starts_[0][slot], starts_[1][slot], starts_[2][slot]);

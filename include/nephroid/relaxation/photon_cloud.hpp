@@ -41,8 +41,8 @@ void for_each_slot(const Tree& tree, E& executor, const Task& task) {
     });
 }
 
-/// Positions (the tree's own), normals and fluxes by slot. A slot is an index into the tree's leaf order; nobody asks
-/// for the slots that pad a leaf to whole lanes.
+/// Positions (the tree's own), normals and fluxes by slot. A slot is an index into the tree's leaf order; the slots
+/// that pad a leaf to whole lanes are never asked for.
 template <Vector3 V, Flux F>
     requires ScalesFlux<F, scalar_t<V>>
 class PhotonCloud {
@@ -122,7 +122,7 @@ public:
 private:
     void check(std::size_t slot, const char* who) const {
         const auto photon = [&] { return std::string(who) + ": photon " + std::to_string(tree_.index(slot)); };
-        // Two photons may lie twice as far apart as either from the origin amid them.
+        // Two photons may be twice as far apart as each of them is from the origin between them.
         if (!isfinite(T(4) * length2(position(slot))))
             invalid_argument(photon() + " lies at " + text_of(V(tree_.origin() + position(slot))) +
                              ", so far from the others that squared distances overflow; use a larger unit of length");

@@ -62,8 +62,8 @@ public:
         }
     }
 
-    /// After an iteration: turns the normals of the photons that went where they were put. Not on the way, as
-    /// neighbours read them.
+    /// Turns the normals of the photons that were put elsewhere, when an iteration is over: during it their neighbours
+    /// read them.
     template <class E>
     void turn_normals(E& executor) {
         if constexpr (turns_normals)
