@@ -8,12 +8,14 @@
 #pragma once
 
 #include "nephroid/relaxation/photon_cloud.hpp"
-#include "nephroid/vector/frame.hpp"
+#include "nephroid/relaxation/surrounded.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
+#include <utility>
 #include <vector>
 
 namespace nephroid::detail {
@@ -27,7 +29,7 @@ struct PilotChoice {
 /// Sums over some photons; those of two sets of photons add up.
 struct PilotEvidence {
     static constexpr std::array<unsigned, 5> candidates = {38, 75, 150, 300, 600};
-    std::array<double, candidates.size()> log_density{}; ///< without what all candidates have in common
+    std::array<double, candidates.size()> log_density{}; ///< but for a constant that all share
     double judged = 0;                                   ///< photons that candidates were compared at
     double nearness = 0;                                 ///< Σ (d₁/d₁₆)²
     double seen = 0;                                     ///< photons in that sum
@@ -82,24 +84,6 @@ struct PilotEvidence {
     }
 };
 
-/// Whether photons lie in each of eight sectors of the outer half of the disc, and so no border crosses it.
-template <class Cloud, class T>
-[[nodiscard]] bool surrounded(const Cloud& cloud, std::size_t slot, const std::vector<Neighbour<T>>& nearest,
-                              std::size_t count) {
-    using V = typename Cloud::vector;
-    const Frame<V> frame = frame_about(cloud.normal(slot));
-    const T outer2 = T(0.5) * nearest[count - 1].distance2;
-    unsigned seen = 0;
-    for (std::size_t n = 0; n < count; ++n) {
-        if (!(nearest[n].distance2 > outer2))
-            continue;
-        const V offset = cloud.position(nearest[n].slot) - cloud.position(slot);
-        const T u = dot(offset, frame.u), v = dot(offset, frame.v);
-        seen |= 1u << (4 * unsigned(u > T(0)) + 2 * unsigned(v > T(0)) + unsigned(abs(u) > abs(v)));
-    }
-    return seen == 0xff;
-}
-
 /// Judges candidates at some 4,096 photons, evenly among all.
 template <class Cloud, class E>
 [[nodiscard]] PilotChoice choose_pilot(const Cloud& cloud, E& executor) {
@@ -121,7 +105,9 @@ template <class Cloud, class E>
             std::sort(nearest.begin(), nearest.end(), [](const auto& a, const auto& b) {
                 return a.distance2 != b.distance2 ? a.distance2 < b.distance2 : a.slot < b.slot;
             });
-            const bool inside = nearest.size() >= wanted && surrounded(cloud, slot, nearest, wanted);
+            const bool inside =
+                nearest.size() >= wanted &&
+                surrounded(cloud, slot, std::span(std::as_const(nearest)).first(wanted), nearest[wanted - 1].distance2);
             by_leaf[leaf].add(nearest, usable, inside);
         }
     });
