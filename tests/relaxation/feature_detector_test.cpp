@@ -38,7 +38,8 @@ namespace {
     return step_at_edge(photons);
 }
 
-/// The same of a sharp edge that a Gaussian has blurred: the mean of erf(x/(σ √2)) for x up to 0.02 times the sharp one.
+/// The same of a sharp edge that a Gaussian has blurred: the mean of erf(x/(σ √2)) for x up to 0.02 times the sharp
+/// one.
 [[nodiscard]] double step_in_theory(double ratio, double spacings) {
     const double deviation = spacings / std::sqrt(12000.0);
     double sum = 0;

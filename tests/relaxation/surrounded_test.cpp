@@ -38,7 +38,8 @@ struct Surrounded {
 } // namespace
 
 // The ring of 600 photons begins at sqrt(1 − 96/600) = 0.917 radii. A border misses it by at most 33.75 degrees to
-// either side of some eighth of it at 0.917 cos(33.75°) = 0.762 radii. An eighth is empty by chance with 16 exp(−12).
+// either side of some eighth of it at 0.917 cos(33.75°) = 0.762 radii. An eighth is empty by chance with a probability
+// of 16 exp(−12).
 TEST_CASE("surrounded: photons away from a border are and those near it are not") {
     const auto photons = random_floor(6000, 130);
     const Surrounded inside(photons, 600, 1.0, 1e9), beside(photons, 600, 0, 0.76);

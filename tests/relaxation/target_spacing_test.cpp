@@ -49,7 +49,8 @@ template <class Cloud>
     return sum;
 }
 
-/// Whether a photon lies in every eighth of the outer half of the disc that begins at a multiple of a sixteenth of a turn.
+/// Whether a photon lies in every eighth of the outer half of the disc, of those that begin at multiples of a sixteenth
+/// of a turn.
 [[nodiscard]] bool is_whole(const std::vector<Stored>& photons, std::size_t photon, std::size_t count) {
     const auto nearest = disc(photons, photon, count);
     for (int sixteenth = 0; sixteenth < 16; ++sixteenth) {
@@ -118,7 +119,8 @@ struct CorrectedRoots {
     return photons;
 }
 
-/// 3,000 photons to a unit of area, as dense as 1 + 0.8 cos(4πx), on 0 to 2 by 0 to 1 and a quarter beyond on all sides.
+/// 3,000 photons to a unit of area, as dense as 1 + 0.8 cos(4πx), on 0 to 2 by 0 to 1 and a quarter beyond on all
+/// sides.
 [[nodiscard]] std::vector<Stored> wide_ripples(std::uint32_t seed) {
     Draws draw(seed);
     std::vector<Stored> photons;
@@ -265,8 +267,8 @@ TEST_CASE("target spacing: ripples of density stay as they are and without a tar
 }
 
 // Pilots of 150 photons show a quarter less contrast than there is. A perfect relaxation to them would lose that by
-// exp(−n q²/(8πρ)) with q = 4π and n = 13.9 photons levelled in an iteration: 0.58 of it in 30 iterations and 0.95 in
-// 100. Ours loses more; corrected it must lose less. The noise of a wave, sqrt(2/6000), hardly changes.
+// exp(−n q²/(8πρ)) with q = 4π and n = 13.9 photons levelled in an iteration: 0.58 of it in 30 iterations and
+// 0.95 in 100. Ours loses more; corrected it must lose less. The noise of a wave, sqrt(2/6000), hardly changes.
 TEST_CASE("target spacing: corrected pilots keep contrast better than any relaxation to uncorrected ones could") {
     const double blurred = 0.8 - pilot_contrast(150), noise = std::sqrt(2.0 / 6000);
     CHECK(blurred > 0.15);

@@ -38,8 +38,8 @@ public:
         : neighbours_(options.neighbours), alpha_(options.alpha), beta_(options.beta),
           partners_(neighbours_ * cloud.tree().slots(), no_photon), next_(cloud.fluxes()) {}
 
-    /// Finds each photon's partners, with which it exchanges flux, from where the photons are now. Of each pair both are
-    /// partners of each other.
+    /// Finds each photon's partners, with which it exchanges flux, from where the photons are now. If one is a partner
+    /// of another, so is the other of the one.
     ///
     /// @param guess  by slot: about how far the last of K + 1 neighbours lies; any
     template <class E>
