@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace nephroid::tests::media_test {
@@ -47,6 +48,9 @@ struct Tank {
     }
     template <class Sampler>
     [[nodiscard]] Answer scatter(const H& hit, const V& d, Sampler&, const Media& media) const {
+        return answer(hit, d, media);
+    }
+    [[nodiscard]] Answer answer(const H& hit, const V& d, const Media& media) const {
         const std::int32_t material = materials[hit.surface];
         if (material == Media::none)
             return {Event::deposit};
@@ -68,6 +72,28 @@ static_assert(KnowsMediumOfLamps<Tank, V>);
     tests::Constant numbers;
     return walk(tank, tests::collimated<double>(from, direction), numbers, {}, account);
 }
+
+/// The same with all ways, of which a part of the light goes back at real surfaces.
+struct TankOfAllWays : Tank {
+    static constexpr double reflectance = 0.25;
+
+    [[nodiscard]] Ways<Answer> scatter_all(const H& hit, const V& d, const Media& media) const {
+        Answer on = answer(hit, d, media);
+        if (on.event != Event::refract)
+            return on;
+        on.weight = 1 - reflectance;
+        return {{Event::reflect, reflectance, 1, media}, on};
+    }
+};
+static_assert(ScattersAllWays<TankOfAllWays, V>);
+
+struct AllDeposits {
+    static constexpr bool follows_all_ways = true;
+    std::vector<std::pair<unsigned, Deposit<V, double, 2>>> seen; ///< with its reflections and refractions
+    void deposit(const Deposit<V, double, 2>& deposit, const WalkedPath<>& path) {
+        seen.emplace_back(path.specular_events, deposit);
+    }
+};
 
 constexpr V up{0, 0, 1}, down{0, 0, -1};
 
@@ -171,6 +197,41 @@ TEST_CASE("media: where water and glass overlap the priority says which of them 
         const double x = slope(0.8) + (4 - border) * slope(0.8 / water_index) + border * slope(0.8 / glass_index);
         CHECK(std::abs(deposit->position.x - x) <= 1e-12);
         CHECK(account.specular_events == 2); // the false surface is none
+    }
+}
+
+// The straightest of all ways is the one that a scene without reflections takes, but for the shares; the others stay in
+// their media too, so that those that end on the floor come at the floor's own angle.
+TEST_CASE("media: photons that follow all ways know the medium on each of them") {
+    for (const std::int32_t priority : {1, -1}) {
+        const Tank tank{{{{{0, 0, 4}, up, Event::refract},
+                          {{0, 0, 3}, up, Event::refract},
+                          {{0, 0, 2.5}, down, Event::refract},
+                          {{0, 0, 0}, up, Event::deposit}}},
+                        {water, glass, water, Media::none},
+                        priority};
+        Statistics account, of_all_ways;
+        const auto expected = walk_in(tank, {0, 0, 5}, {0.8, 0, -0.6}, account);
+        REQUIRE(expected);
+        const TankOfAllWays all_ways{tank};
+        AllDeposits visitor;
+        tests::Constant numbers;
+        walk(all_ways, tests::collimated<double>({0, 0, 5}, {0.8, 0, -0.6}), numbers, {.least_share = 1e-6},
+             of_all_ways, visitor);
+        double flux = 0;
+        int straight = 0;
+        for (const auto& [events, deposit] : visitor.seen) {
+            flux += deposit.flux;
+            CHECK(std::abs(deposit.direction.x - expected->direction.x) <= 1e-12);
+            if (events != 2)
+                continue;
+            ++straight;
+            CHECK(std::abs(deposit.position.x - expected->position.x) <= 1e-12);
+            CHECK(std::abs(deposit.flux - 0.75 * 0.75 * expected->flux) <= 1e-12);
+        }
+        CHECK(straight == 1);
+        CHECK(visitor.seen.size() >= 3); // up and down between the two surfaces: not at all, once, twice
+        tests::check_balance(of_all_ways, flux, visitor.seen.size() - of_all_ways.branches);
     }
 }
 

@@ -95,9 +95,10 @@ struct pending_ways_of {
 };
 template <class S, class V, class F, std::size_t N, class Trail>
 struct pending_ways_of<S, V, F, N, Trail, true> {
-    using Scattering = std::remove_cvref_t<decltype(std::declval<const S&>().scatter_all(
-        std::declval<const hit_t<S, V>&>(), std::declval<const V&>())[0])>;
     using Medium = typename medium_of<S, V>::type;
+    using Scattering =
+        std::remove_cvref_t<decltype(scatter_all_in(std::declval<const Medium&>(), std::declval<const S&>(),
+                                                    std::declval<const hit_t<S, V>&>(), std::declval<const V&>())[0])>;
     using type = PendingWays<PendingWay<Photon<V, F, N>, Medium, RayStart<S, V>, Trail, hit_t<S, V>, Scattering>>;
 };
 

@@ -66,7 +66,7 @@ private:
         if (!steps_.fly_to(*hit))
             return false;
         if constexpr (branches)
-            return branch(*hit, scene_.scatter_all(*hit, now.direction), kept);
+            return branch(*hit, scatter_all_in(steps_.medium(), scene_, *hit, now.direction), kept);
         else
             return follow<false>(*hit, scatter_in(steps_.medium(), scene_, *hit, now.direction, sampler_), kept);
     }

@@ -34,6 +34,9 @@ auto walk(const S& scene, Photon<V, F, N>&& photon, Sampler& sampler, const Walk
         Absorbs<S, V> || !requires { typename S::medium; },
         "nephroid::walk: the scene names a medium, but transmittance(medium, distance) is missing or not const");
     using Visits = std::remove_reference_t<Visitor>;
+    static_assert(!detail::follows_all_ways<Visits> || !detail::ForgetsMediumInAllWays<S, V, Sampler>,
+                  "nephroid::walk: the scene's scatter takes the medium, but its scatter_all does not; add a third "
+                  "parameter for it (transport/ways.hpp)");
     std::optional<Deposit<V, F, N>> kept;
     detail::VisitedWalk<S, V, F, N, Sampler, Visits>(scene, photon, sampler, limits, account, visitor).run(kept);
     if constexpr (!detail::VisitsDeposits<Visits, V, F, N>)

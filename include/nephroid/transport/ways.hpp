@@ -37,8 +37,32 @@ private:
     std::size_t size_ = 0;
 };
 
+namespace detail {
+/// The scene's `scatter_all` takes the medium that the photon arrives through.
+template <class S, class H, class V, class Medium>
+concept ScattersAllIn = requires(const S& scene, const H& hit, const V& v, const Medium& medium) {
+    scene.scatter_all(hit, v, medium);
+};
+template <class S, class H, class V>
+concept ScattersAllAnywhere = requires(const S& scene, const H& hit, const V& v) {
+    scene.scatter_all(hit, v);
+};
+
+/// Calls the scene's `scatter_all`, with the photon's medium if it takes that.
+template <class S, class H, class V, class Medium>
+    requires(ScattersAllIn<S, H, V, Medium> || ScattersAllAnywhere<S, H, V>)
+[[nodiscard]] auto scatter_all_in([[maybe_unused]] const Medium& medium, const S& scene, const H& hit,
+                                  const V& direction) {
+    if constexpr (ScattersAllIn<S, H, V, Medium>)
+        return scene.scatter_all(hit, direction, medium);
+    else
+        return scene.scatter_all(hit, direction);
+}
+} // namespace detail
+
 /// Optional: `scene.scatter_all(hit, direction)` returns all ways that light takes at a surface, as `Ways` or any type
-/// with size() and [i]. A way is what `scatter` returns, except that its weight is the share of the light that goes
+/// with size() and [i]. An optional third parameter gets the `medium` that the photon arrives through; it has to be
+/// there if `scatter` takes the medium. A way is what `scatter` returns, except that its weight is the share of the light that goes
 /// this way, not divided by a probability. No ways mean absorption. If an Event::deposit is one of several ways, its
 /// weight is deposited. The result must not depend on chance, because methods that compare neighbouring photons rely
 /// on it.
@@ -52,13 +76,23 @@ private:
 /// }
 /// ```
 template <class S, class V>
-concept ScattersAllWays = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& direction) {
-    { scene.scatter_all(hit, direction).size() } -> std::convertible_to<std::size_t>;
-    { scene.scatter_all(hit, direction)[std::size_t(0)].event } -> std::convertible_to<Event>;
-    {scene.scatter_all(hit, direction)[std::size_t(0)].weight};
+concept ScattersAllWays = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& direction,
+                                                      const typename detail::medium_of<S, V>::type& medium) {
+    { detail::scatter_all_in(medium, scene, hit, direction).size() } -> std::convertible_to<std::size_t>;
+    { detail::scatter_all_in(medium, scene, hit, direction)[std::size_t(0)].event } -> std::convertible_to<Event>;
+    {detail::scatter_all_in(medium, scene, hit, direction)[std::size_t(0)].weight};
 };
 
 namespace detail {
+/// The scene's `scatter` takes the medium, but its `scatter_all` does not, so that both would disagree under water.
+template <class S, class V, class Sampler>
+concept ForgetsMediumInAllWays =
+    ScattersAllWays<S, V> && !ScattersAllIn<S, hit_t<S, V>, V, typename medium_of<S, V>::type> &&
+    requires(const S& scene, const hit_t<S, V>& hit, const V& v, Sampler& sampler,
+             const typename medium_of<S, V>::type& medium) {
+    scene.scatter(hit, v, sampler, medium);
+};
+
 /// The scene declares `static constexpr bool scatters_by_chance = false`: its `scatter` draws no numbers, and the way
 /// that it returns is the only one.
 template <class S>
