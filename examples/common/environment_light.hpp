@@ -8,8 +8,10 @@
 #include "nephroid/emission/light.hpp"
 #include "nephroid/emission/target.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace nephroid::examples {
 
@@ -23,10 +25,11 @@ public:
     using flux_type = F;
     static constexpr EmissionDomain domain{.coordinates = 4, .kinks = {Kinks::diagonals, Kinks::unknown}};
 
-    /// @param scene  a sphere around everything that may cast a shadow
+    /// @param scene   a sphere around everything that may cast a shadow
+    /// @param others  targets of other lights of this environment: rays to them carry no flux here
     EnvironmentLight(std::shared_ptr<const Environment<T, F>> environment, const BoundingSphere<Vec3<T>>& target,
-                     const BoundingSphere<Vec3<T>>& scene)
-        : environment_(std::move(environment)), target_(target),
+                     const BoundingSphere<Vec3<T>>& scene, std::vector<BoundingSphere<Vec3<T>>> others = {})
+        : environment_(std::move(environment)), target_(target), others_(std::move(others)),
           back_((scene.radius + length(Vec3<T>(scene.centre - target.centre))) * T(1.001)) {}
 
     template <SampleSource<T> Source>
@@ -44,18 +47,26 @@ public:
         const auto tangent = [&](const Vec3<T>& across) {
             return Tangent<Vec3<T>>{(d_position - back_ * d_direction) * across, d_direction * across};
         };
+        const T share = is_for_another(target_.centre + place, direction) ? T(0) : T(1);
         return {target_.centre + place - back_ * direction,
                 direction,
-                static_cast<F>(from.radiance * (stands_for * area / spread.photons)),
+                static_cast<F>(from.radiance * (share * stands_for * area / spread.photons)),
                 {tangent(basis.theta), tangent(basis.phi)}};
     }
 
-    /// Exact except for the interpolation between a picture's pixels.
+    /// Exact except for the interpolation between a picture's pixels, and for rays that are another light's.
     [[nodiscard]] double power() const { return environment_->total() * double(pi<T> * square(target_.radius)); }
 
 private:
+    [[nodiscard]] bool is_for_another(const Vec3<T>& at, const Vec3<T>& direction) const {
+        return std::any_of(others_.begin(), others_.end(), [&](const BoundingSphere<Vec3<T>>& other) {
+            return length2(cross(direction, Vec3<T>(other.centre - at))) <= square(other.radius);
+        });
+    }
+
     std::shared_ptr<const Environment<T, F>> environment_;
     BoundingSphere<Vec3<T>> target_;
+    std::vector<BoundingSphere<Vec3<T>>> others_;
     T back_;
 };
 

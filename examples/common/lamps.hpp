@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// @file  The lamps of a scene, for direct light and as emitters of photons towards specular surfaces.
+/// @file  The lamps of a scene, as direct light knows them.
 #pragma once
 
-#include "common/environment_light.hpp"
+#include "common/environment.hpp"
 #include "common/scene.hpp"
-
-#include "nephroid/emission/light/standard_lights.hpp"
 
 #include <array>
 #include <memory>
@@ -62,11 +60,6 @@ struct Lamps {
     }
 };
 
-/// A scene's lamps as a light that emits photons.
-template <class T, Flux F>
-using SceneLights = LightSet<PointLight<Vec3<T>, F>, SpotLight<Vec3<T>, F>, DirectionalLight<Vec3<T>, F>,
-                             MeshLight<Vec3<T>, F>, EnvironmentLight<T, F>>;
-
 /// The area lamps of a scene: the triangles of its meshes that emit, one lamp for each material of each mesh.
 ///
 /// They are moved in front of the triangles by more than rounding, so that neither photons that start there nor shadow
@@ -117,91 +110,6 @@ void begin_in_media(Scene<T, F>& scene, const Lamps<T, F>& lamps) {
         const auto& [a, b, c] = lamp.triangles.front();
         scene.begin_in_media(box, T(1) / T(3) * (a + b + c));
     }
-}
-
-namespace detail {
-/// A beam's patch, moved against the beam until it is in front of a whole box, so that objects between the lamp and the
-/// specular surfaces cast shadows.
-template <class T>
-[[nodiscard]] BeamPatch<Vec3<T>> in_front_of(BeamPatch<Vec3<T>> patch, const Vec3<T>& direction, const Box<T>& box) {
-    T nearest = std::numeric_limits<T>::infinity();
-    for (int i = 0; i < 8; ++i)
-        nearest = (std::min)(nearest, dot(box.corner(i), direction));
-    const T size = length(box.max - box.min);
-    const auto move = [&](Vec3<T>& origin) {
-        const T back = dot(origin, direction) - nearest + size / T(64);
-        if (back > T(0))
-            origin = origin - back * direction;
-    };
-    if (auto* disk = std::get_if<BeamDisk<Vec3<T>>>(&patch))
-        move(disk->centre);
-    if (auto* parallelogram = std::get_if<Parallelogram<Vec3<T>>>(&patch))
-        move(parallelogram->corner); // perpendicular to the beam, so any corner will do
-    return patch;
-}
-
-/// The triangles that see a part of the target. Photons of the others would carry no flux.
-template <class T>
-[[nodiscard]] std::vector<std::array<Vec3<T>, 3>> facing(std::vector<std::array<Vec3<T>, 3>> triangles,
-                                                         const BoundingSphere<Vec3<T>>& target) {
-    std::erase_if(triangles, [&](const std::array<Vec3<T>, 3>& t) {
-        const Vec3<T> normal = normalize(cross(t[1] - t[0], t[2] - t[0]));
-        return dot(target.centre - t[0], normal) <= -target.radius;
-    });
-    return triangles;
-}
-} // namespace detail
-
-/// The lamps as lights that send photons to the scene's specular surfaces.
-/// Throws std::invalid_argument if there are no lamps or no (bounded) specular surfaces.
-template <class T, Flux F>
-[[nodiscard]] SceneLights<T, F> photon_lights(const Lamps<T, F>& lamps, const Scene<T, F>& scene) {
-    using V = Vec3<T>;
-    if (lamps.empty())
-        invalid_argument("the scene has no lights");
-    const auto target = scene.specular_bounds();
-    if (!target)
-        invalid_argument("the scene has no specular surfaces: nothing in it makes a caustic");
-
-    std::vector<typename SceneLights<T, F>::AnyLight> lights;
-    for (const Lamp<T, F>& lamp : lamps.lamps) {
-        switch (lamp.kind) {
-        case Lamp<T, F>::Kind::point:
-            lights.push_back(
-                PointLight<V, F>({.position = lamp.position, .intensity = lamp.intensity, .target = target}));
-            break;
-        case Lamp<T, F>::Kind::spot:
-            lights.push_back(SpotLight<V, F>({.position = lamp.position,
-                                              .axis = lamp.direction,
-                                              .cos_inner = lamp.cos_inner,
-                                              .cos_outer = lamp.cos_outer,
-                                              .intensity = lamp.intensity,
-                                              .target = target}));
-            break;
-        case Lamp<T, F>::Kind::directional: {
-            const auto patch = smallest_beam_over(lamp.direction, scene.specular_points());
-            lights.push_back(
-                DirectionalLight<V, F>({.direction = lamp.direction,
-                                        .irradiance = lamp.intensity,
-                                        .patch = detail::in_front_of<T>(patch, lamp.direction, scene.bounds())}));
-            break;
-        }
-        }
-    }
-    for (const AreaLamp<T, F>& area : lamps.areas) {
-        const auto triangles = detail::facing<T>(area.triangles, *target);
-        if (!triangles.empty())
-            lights.push_back(MeshLight<V, F>({.triangles = triangles, .radiance = area.radiance, .target = target}));
-    }
-    for (const auto& environment : lamps.environments) {
-        const Box<T>& bounds = scene.bounds();
-        lights.push_back(EnvironmentLight<T, F>(
-            environment, *target,
-            {T(0.5) * (bounds.min + bounds.max), T(0.5) * length(Vec3<T>(bounds.max - bounds.min))}));
-    }
-    if (lights.empty())
-        invalid_argument("no light of the scene shines towards its specular surfaces");
-    return SceneLights<T, F>(std::move(lights));
 }
 
 } // namespace nephroid::examples

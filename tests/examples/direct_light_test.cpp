@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/direct_light.hpp"
 
+#include "common/photon_lights.hpp"
 #include "examples/worlds.hpp"
 
 #include "nephroid/execution/thread_executor.hpp"

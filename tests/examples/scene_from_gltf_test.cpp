@@ -2,6 +2,7 @@
 #include "common/scene_from_gltf.hpp"
 
 #include "common/eye_paths.hpp"
+#include "common/photon_lights.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/caustics/file_layers.hpp"
 #include "common/caustics/render.hpp"
+#include "common/photon_lights.hpp"
 
 #include "nephroid/vector/glm.hpp"
 

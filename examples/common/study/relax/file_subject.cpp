@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/study/relax/subject.hpp"
 
+#include "common/photon_lights.hpp"
 #include "common/scene_from_gltf.hpp"
 #include "common/study/relax/stored_photons.hpp"
 
