@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace nephroid::tests::group_borders_test {
@@ -72,6 +73,38 @@ TEST_CASE("group borders: borders are found in any direction") {
         }
         CHECK(checked > 100);
         CHECK(double(far) < 0.02 * double(checked));
+    }
+}
+
+// A quarter of the domain's length, narrower than the widest footprints. A border is laid up to 1.5 cells too far out, as
+// above, in both directions now; on average it is within half a cell.
+TEST_CASE("group borders: footprints of a small group are bounded on all of its sides") {
+    const auto patch = [](double u, double v) {
+        Landing landing = affine(u, v);
+        landing.signature = std::abs(u - 0.5) < 0.125 && std::abs(v - 0.45) < 0.125 ? 2 : 1;
+        return landing;
+    };
+    for (const auto& samples : {lattice(63, 63), halton(4000)}) {
+        const auto photons = photons_of(patch, samples);
+        const Field field = field_of(photons, {.stratified = true, .photons = double(samples.size())});
+        const double u0 = unit_of(double(samples.size()));
+        double over = 0;
+        int checked = 0;
+        for (const auto& photon : photons) {
+            if (photon.signature != 2)
+                continue;
+            const auto here = field.at(photon.sample.at, photon.frame, photon.signature);
+            if (!here)
+                continue;
+            const auto& [u, v] = photon.sample.at;
+            const double along_x = std::sqrt(here->shape.xx) - (0.125 - std::abs(u - 0.5)) / u0,
+                         along_y = std::sqrt(here->shape.yy) - (0.125 - std::abs(v - 0.45)) / u0;
+            CHECK((std::max)(along_x, along_y) <= 1.5 * unit_per_cell * step);
+            over += (std::max)(along_x, along_y);
+            ++checked;
+        }
+        REQUIRE(checked > 200);
+        CHECK(over / checked <= 0.5 * unit_per_cell * step);
     }
 }
 

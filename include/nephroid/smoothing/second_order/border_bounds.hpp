@@ -32,9 +32,9 @@ public:
             shape.value = principal.with((std::min)(principal.larger, radius2), (std::min)(principal.smaller, radius2));
             return;
         }
-        const Reach reach = reach_to(cell.border_distance - inner(n, away));
-        shape.bound_along(n, reach.radius,
-                          {-reach.by_distance * inner(n, steps.first), -reach.by_distance * inner(n, steps.second)});
+        bound_towards(shape, n, cell.border_distance, away, steps);
+        if (std::isfinite(cell.across_distance))
+            bound_towards(shape, cell.across_direction, cell.across_distance, away, steps);
     }
 
     /// Bounds a shape by the borders of the light's domain, in the photon's own frame.
@@ -70,6 +70,14 @@ private:
     struct Reach {
         double radius, by_distance;
     };
+
+    /// @param n         unit, towards a border, in the frame of the cell
+    /// @param distance  of the border from the cell's middle
+    void bound_towards(VaryingShape& shape, Plane2 n, double distance, Plane2 away, const PlaneMatrix& steps) const {
+        const Reach reach = reach_to(distance - inner(n, away));
+        shape.bound_along(n, reach.radius,
+                          {-reach.by_distance * inner(n, steps.first), -reach.by_distance * inner(n, steps.second)});
+    }
 
     [[nodiscard]] Reach reach_to(double distance) const {
         const double unit_reach = std::sqrt(scale_);

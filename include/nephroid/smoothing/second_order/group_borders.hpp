@@ -5,8 +5,12 @@
 #include "nephroid/smoothing/second_order/group_cells.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <vector>
 
 namespace nephroid::detail {
@@ -93,6 +97,71 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
             border[index] = from;
             pending.push_back(index);
         });
+    }
+}
+
+/// Where the border lies of a cell that has one in or beside it, in emission coordinates.
+[[nodiscard]] inline std::optional<std::array<double, 2>> border_point(const GroupCell& cell,
+                                                                       const EmissionCells& grid) {
+    if (!std::isfinite(cell.border_distance) || !(std::abs(cell.to_frame.determinant()) > 0))
+        return std::nullopt;
+    const auto middle = grid.middle(cell.square);
+    const Plane2 step = cell.to_frame.inverse()(cell.border_distance * cell.border_direction);
+    return std::array<double, 2>{middle[0] + step.x, middle[1] + step.y};
+}
+
+/// Finds how far a cell is from the group's border in one direction.
+///
+/// @param direction  unit, in the cell's frame
+/// @return  infinity beyond `largest_radius`, and towards the border of the domain
+[[nodiscard]] inline double distance_to_border(const GroupCell& cell, const GroupCells& cells, Plane2 direction,
+                                               double largest_radius) {
+    constexpr double endless = std::numeric_limits<double>::infinity();
+    const EmissionCells& grid = cells.grid();
+    const auto middle = grid.middle(cell.square);
+    const Plane2 by_unit = cell.to_frame.inverse()(direction);
+    const double side = std::sqrt(std::abs(cell.to_frame.determinant()) / double(grid.size())), step = 0.5 * side;
+    const GroupCell* last = &cell;
+    for (double at = step; at <= largest_radius + step; at += step) {
+        std::array<double, 2> sample{middle[0] + at * by_unit.x, middle[1] + at * by_unit.y};
+        for (double& u : sample) {
+            if (grid.repeats())
+                u -= std::floor(u);
+            if (!(u >= 0 && u < 1))
+                return endless;
+        }
+        const GroupCell* here = cells.cell_in(grid.cell_of(sample));
+        if (here != nullptr && here->is_resolved) {
+            last = here;
+            continue;
+        }
+        // Between the last cell and this square, or where the last cell has its own border in this direction.
+        const double between = at - step;
+        if (const auto border = border_point(*last, grid)) {
+            const double found = inner(direction, cell.to_frame(grid.step_between(middle, *border)));
+            return std::clamp(found, between - side, between + step);
+        }
+        return between;
+    }
+    return endless;
+}
+
+/// Finds for each cell with a border nearby how far the border is across that one: in a corner of the group, or in a
+/// group that is no wider than footprints, both bound them.
+inline void find_borders_across(GroupCells& cells, double largest_radius) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+        GroupCell& cell = cells[i];
+        if (!cell.is_resolved || !std::isfinite(cell.border_distance) ||
+            !(inner(cell.border_direction, cell.border_direction) > 0))
+            continue;
+        for (const double side : {1.0, -1.0}) {
+            const Plane2 across{-side * cell.border_direction.y, side * cell.border_direction.x};
+            const double distance = distance_to_border(cell, cells, across, largest_radius);
+            if (distance < cell.across_distance) {
+                cell.across_distance = distance;
+                cell.across_direction = across;
+            }
+        }
     }
 }
 

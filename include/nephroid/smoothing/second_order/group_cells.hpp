@@ -35,6 +35,8 @@ struct GroupCell {
     double border_distance = std::numeric_limits<double>::infinity(); ///< from the middle, in the frame's units;
                                                                       ///< negative beyond the border
     Plane2 border_direction{};                                        ///< unit, or 0 where the border is all around
+    double across_distance = std::numeric_limits<double>::infinity(); ///< to the border in the nearer of the two
+    Plane2 across_direction{};                                        ///< directions across the former, likewise
 };
 
 /// One of the four squares whose middles surround a sample.

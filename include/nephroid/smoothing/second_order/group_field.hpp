@@ -55,6 +55,7 @@ public:
             return;
         }
         find_borders(cells_, photons, options_.bounds.largest_radius);
+        find_borders_across(cells_, options_.bounds.largest_radius);
         for_each_cell([&](GroupCell& cell) { choose_shape(cell); });
         is_contradicted_ = !options_.repeats && are_shapes_contradicted(); // a floor that repeats has jumps of its own
     }
