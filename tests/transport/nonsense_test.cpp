@@ -121,6 +121,24 @@ struct SkippingAndSaying : Skipping {
     double tracer_epsilon;
 };
 
+/// Reflects and refracts shares of the light that add up to a sum.
+struct InShares : Changed {
+    double shares;
+    [[nodiscard]] Ways<Scattering<double, double>> scatter_all(const PlaneHit& hit, const V&) const {
+        if (hit.surface != 0)
+            return Scattering<double, double>::deposit();
+        return {Scattering<double, double>::reflect(0.5 * shares),
+                Scattering<double, double>::refract(0.5 * shares, 1.0)};
+    }
+};
+
+/// Follows all ways, and adds up what arrives.
+struct Deposits {
+    static constexpr bool follows_all_ways = true;
+    double flux = 0;
+    void deposit(const Deposit<V, double, 2>& deposit, const WalkedPath<>&) { flux += deposit.flux; }
+};
+
 } // namespace
 
 TEST_CASE("nonsense: an index that is no number or not positive ends the photon as invalid") {
@@ -238,6 +256,34 @@ TEST_CASE("nonsense: each kernel of the library holds its flux") {
     check(ConeKernel{});
     check(UniformKernel{});
     check(TruncatedGaussianKernel{});
+}
+
+TEST_CASE("nonsense: a tracer's epsilon that is negative or no number makes photons invalid") {
+    struct Epsilon : Changed {
+        double tracer_epsilon;
+    };
+    for (const double epsilon : {-0.001, quiet_nan<double>, 0.0}) {
+        CAPTURE(epsilon);
+        const Epsilon scene{{}, epsilon};
+        Statistics account;
+        const bool is_lit = follow(scene, collimated<double>({0, 0, 1}, {0.3, 0, -1}), account).has_value();
+        CHECK(is_lit == (epsilon == 0));
+        CHECK(account[Fate::invalid].photons == (epsilon == 0 ? 0 : 1));
+    }
+}
+
+TEST_CASE("nonsense: ways whose shares add up to more than 1 make the photon invalid") {
+    for (const double shares : {1.0, 0.8, 1 + 1e-9, 1.01, 2.0, -1.0, quiet_nan<double>}) {
+        CAPTURE(shares);
+        const InShares scene{{}, shares};
+        Deposits deposits;
+        tests::Constant numbers;
+        Statistics account;
+        walk(scene, collimated<double>({0, 0, 1}, {0.3, 0, -1}), numbers, {}, account, deposits);
+        const bool is_valid = shares > 0 && shares < 1.001;
+        CHECK((account[Fate::invalid].photons == 1) == !is_valid);
+        CHECK(deposits.flux == doctest::Approx(is_valid ? 0.5 * shares : 0)); // what is reflected; below is nothing
+    }
 }
 
 // The normal of a cylinder of radius 1 turns by dx across its axis.

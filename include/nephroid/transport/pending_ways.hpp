@@ -6,6 +6,7 @@
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/photon_steps.hpp"
 #include "nephroid/transport/trail.hpp"
+#include "nephroid/transport/value_checks.hpp"
 #include "nephroid/transport/walk_limits.hpp"
 #include "nephroid/transport/ways.hpp"
 
@@ -46,9 +47,14 @@ public:
         const std::size_t count = std::size_t(ways.size());
         const auto arrived = steps.photon().flux;
         double absorbed = steps.power(arrived);
-        for (std::size_t i = 0; i < count; ++i)
-            absorbed -= steps.power(arrived * ways[i].weight);
-        if (!isfinite(absorbed))
+        bool is_negative = false;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::remove_const_t<decltype(arrived)> share = arrived * ways[i].weight;
+            is_negative = is_negative || has_negative_band(share);
+            absorbed -= steps.power(share);
+        }
+        constexpr double most_created = 1e-3; // more than that is no rounding: the shares add up to more than 1
+        if (is_negative || !isfinite(absorbed) || absorbed < -most_created * steps.power(arrived))
             return steps.end(Fate::invalid);
         account.lose(Fate::absorbed, absorbed);
         account.branches += count - 1;

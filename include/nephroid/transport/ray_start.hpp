@@ -28,11 +28,12 @@ template <class H, Vector3 V>
         return T(4) * rounding;
 }
 
-/// What the scene's tracer skips at the start of every ray, world units.
+/// What the scene's tracer skips at the start of every ray, world units; NaN if that is negative.
 template <Vector3 V, class S>
 [[nodiscard]] scalar_t<V> skipped_by_tracer([[maybe_unused]] const S& scene) {
     if constexpr (HasTracerEpsilon<S, V>)
-        return scalar_t<V>(scene.tracer_epsilon);
+        return scalar_t<V>(scene.tracer_epsilon) >= scalar_t<V>(0) ? scalar_t<V>(scene.tracer_epsilon)
+                                                                   : std::numeric_limits<scalar_t<V>>::quiet_NaN();
     else
         return scalar_t<V>(0);
 }
