@@ -2,6 +2,7 @@
 // Each sentence is provoked by the mistake that it is about.
 #include "nephroid/pass/diagnose.hpp"
 
+#include "nephroid/caustics.hpp"
 #include "nephroid/emission/light/directional.hpp"
 #include "nephroid/emission/light/point.hpp"
 #include "nephroid/pass/photons_to_emit.hpp"
@@ -85,6 +86,26 @@ struct Sloppy {
     }
 };
 
+/// Leaves out footprints that are longer than the scene.
+struct DiscardWide {
+    template <class Vector>
+    [[nodiscard]] Verdict operator()(Ellipse<Vector>& ellipse, scalar_t<Vector> diagonal) const {
+        return length(ellipse.a) > diagonal ? Verdict::discarded : Verdict::kept;
+    }
+};
+
+/// The sun with other tangents than its own.
+struct Laser : DirectionalLight<V, double> {
+    double scale;
+    template <class Samples>
+    [[nodiscard]] Photon<V, double> emit(Samples& samples, const Spread<double>& spread) const {
+        auto photon = DirectionalLight<V, double>::emit(samples, spread);
+        for (auto& tangent : photon.differential)
+            tangent.d_position *= scale;
+        return photon;
+    }
+};
+
 /// Finds nothing, and counts.
 struct Counting {
     mutable std::uint64_t rays = 0;
@@ -160,21 +181,44 @@ TEST_CASE("diagnose: shading normals on the wrong side") {
     CHECK(says(diagnose(fates_of(scene, sun())), 0, "used the geometric normal"));
 }
 
+// Each by a pass that makes the mistake.
 TEST_CASE("diagnose: what happens to caustic photons at their end") {
-    Statistics account = fates_of(good_scene(), sun());
-    const auto all_as = [&](Fate fate) {
-        Statistics moved = account;
-        moved.fates[std::size_t(fate)] = moved.fates[std::size_t(Fate::splatted)];
-        moved.fates[std::size_t(Fate::splatted)] = {};
-        return diagnose(moved);
+    struct Vertex {
+        V position, normal;
     };
-    CHECK(says(all_as(Fate::unseen), 0, "100% of the caustic photons fell where no eye path vertex sees them"));
-    CHECK(says(all_as(Fate::collapsed), 0, "100% of the caustic photons had footprints without area"));
-    CHECK(says(all_as(Fate::excessive), 0, "100% of the caustic photons had footprints without bounds"));
-    account.splatted_as_published = account.caustic_photons();
-    CHECK(says(diagnose(account), 0, "100% of the caustic photons were splatted as published"));
-    account.splatted_as_published /= 4;
-    CHECK(diagnose(account).empty());
+    const auto pass_in = [](const auto& scene, const V& normal, const auto& light, std::uint64_t photons,
+                            const auto& policies) {
+        std::vector<Vertex> ceiling;
+        for (int i = 0; i < 400; ++i)
+            ceiling.push_back({{(i % 20 - 9.5) / 10, (i / 20 - 9.5) / 10, 2}, normal});
+        const EyePathMap map(ceiling, &Vertex::position, &Vertex::normal);
+        auto sums = nephroid::sums<double>(map);
+        return diagnose(caustics(scene, light, sums, {.count = photons}, policies));
+    };
+    const auto pass = [&](const V& normal, const auto& light, std::uint64_t photons, const auto& policies) {
+        return pass_in(good_scene(), normal, light, photons, policies);
+    };
+    const V down{0, 0, -1}, up{0, 0, 1};
+    CHECK(pass(down, sun(), 2000, Default{}).empty());
+    CHECK(says(pass(up, sun(), 2000, Default{}), 0, "100% of the caustic photons fell where no eye path vertex sees"));
+    // A mirror of flat strips, each tilted by its own angle, between which tangents know nothing of one another.
+    const auto strips = [](auto& hit, const V&, const V&) {
+        const double tilt = 0.2 * std::sin(2.4 * std::floor(16 * hit.position.x));
+        if (hit.surface == 0)
+            hit.shading_normal = {std::sin(tilt), 0, std::cos(tilt)};
+    };
+    CHECK(says(pass_in(Changed{good_scene(), strips}, down, sun(), 6000, Default{}), 0,
+               "100% of the caustic photons were splatted as published"));
+
+    // A lamp that forgot its tangents, and no pixel filter that would hide it.
+    const auto unfiltered = Published{}.with_filter(NoPixelFilter{});
+    CHECK(says(pass(down, Laser{sun(), 0}, 2000, unfiltered), 0,
+               "100% of the caustic photons had footprints without area"));
+    // One whose tangents are the size of its beam, and a policy that leaves out what is as wide as the ceiling.
+    const auto small_only = unfiltered.with_excess(DiscardWide{});
+    CHECK(says(pass(down, Laser{sun(), 1000}, 2000, small_only), 0,
+               "100% of the caustic photons had footprints without bounds"));
+    CHECK(pass(down, sun(), 2000, small_only).empty());
 }
 
 TEST_CASE("diagnose: the worst comes first, and small shares have their decimals") {
