@@ -76,7 +76,7 @@ TEST_CASE("group borders: borders are found in any direction") {
     }
 }
 
-// A quarter of the domain's length, narrower than the widest footprints. A border is laid up to 1.5 cells too far out, as
+// A quarter of the domain, narrower than the widest footprints. A border is laid up to 1.5 cells too far out, as
 // above, in both directions now; on average it is within half a cell.
 TEST_CASE("group borders: footprints of a small group are bounded on all of its sides") {
     const auto patch = [](double u, double v) {
