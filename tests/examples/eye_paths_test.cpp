@@ -146,6 +146,23 @@ TEST_CASE_TEMPLATE("eye paths: a camera under water sees through water from its 
     CHECK(std::abs(weight_from(T(3), sheet<T>(5, 1, true, 1)) - passed) < 1000 * std::numeric_limits<T>::epsilon());
 }
 
+// Along its axis light meets a globe at its poles, where 64 triangles have a common vertex. There it passes as through
+// a slab: (1 - R)^2 (1 + R^2 + ...) = (1 - R) / (1 + R). The globe may stand on the floor.
+TEST_CASE_TEMPLATE("eye paths: a ray through a vertex of many triangles passes all of them", T, float, double) {
+    constexpr double reflected = 0.04, expected = (1 - reflected) / (1 + reflected);
+    for (const T height : {T(2), T(1)}) {
+        MeshData<T> ball = globe<T>(32, 0, Vec3<T>(0, 0, height));
+        ball.materials.assign(ball.triangles.size(), 1);
+        const Scene<T> scene({{TriangleMesh<T>(ball), 0}, {Floor<T>(0), 0}},
+                             {Colors<T>::diffuse(Vec3<T>(1)), Colors<T>::dielectric(1.5)});
+        const auto camera = Camera<T>::orthographic({{0, 0, 10}, {1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, T(0.01), 1, 1);
+        const auto eye = trace_eye_paths(scene, camera, {.max_depth = 64, .least_weight = 1e-18}, SerialExecutor{});
+        CAPTURE(height);
+        CHECK(std::abs(std::numbers::pi * double(sum_of_weights(eye)) - expected) <
+              64 * double(std::numeric_limits<T>::epsilon())); // a few roundings for each of some ten surfaces
+    }
+}
+
 TEST_CASE_TEMPLATE("eye paths: mirrors and metals reflect to what is behind the camera", T, float, double) {
     const Vec3<T> color(T(0.3), T(0.6), T(0.9));
     const Scene<T> mirror({{TriangleMesh<T>(sheet<T>(5, 0, true, 1)), 0}, {Floor<T>(20), 0}},

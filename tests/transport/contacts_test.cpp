@@ -179,4 +179,24 @@ TEST_CASE("contacts: a photon ends as terminated where a scene leaves nothing ou
     CHECK(account[Fate::terminated].photons == 1);
 }
 
+TEST_CASE("contacts: a vertex may have more triangles than are remembered") {
+    constexpr float down = -0.8f, up = 0.8f;
+    Contacts<float> contacts;
+    contacts.leave(0, down, 1e-6f, true, false);
+    unsigned met = 0;
+    for (std::uint64_t triangle = 1; triangle < 40; ++triangle)
+        if (!contacts.leave_out(triangle, 0, down)) { // each is met at most once
+            contacts.leave_beside(triangle);
+            CHECK(contacts.leave_out(triangle, 0, down));
+            ++met;
+        }
+    CHECK(met == 8); // 7 more are remembered, and the next one ends the list
+    for (std::uint64_t triangle = 0; triangle < 40; ++triangle)
+        CHECK(contacts.leave_out(triangle, 0, down));
+    CHECK_FALSE(contacts.leave_out(40, 0, up));        // a table there, which faces the ray
+    CHECK_FALSE(contacts.leave_out(40, 0.001f, down)); // what lies ahead
+    contacts.leave(40, down, 1e-6f, true, false);      // elsewhere nothing is left of it
+    CHECK_FALSE(contacts.leave_out(1, 0, down));
+}
+
 } // namespace nephroid::tests::contacts_test

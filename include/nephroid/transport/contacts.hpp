@@ -36,7 +36,7 @@ public:
     [[nodiscard]] bool leave_out(std::uint64_t primitive, T distance, T cosine) const {
         if (!is_here(distance, cosine)) // a ray cannot meet a flat surface twice, and a curved one only from behind
             return !(distance > T(0)) || (begins_on_surface_ && primitive == left_ && (cosine > T(0)) == along_normal_);
-        return primitive == left_ || has_crossed(primitive) == forwards_;
+        return primitive == left_ || has_crossed(primitive) == forwards_ || is_beyond_memory(cosine);
     }
 
     /// Whether `leave_out` may return true; computed without the cosine. A curved shape with a search of its own may
@@ -65,6 +65,7 @@ public:
     void leave(std::uint64_t primitive, T cosine, T height, bool passed, bool is_here) {
         if (!is_here || !begins_on_surface_) {
             count_ = 0;
+            has_forgotten_ = false;
             forwards_ = true;
         }
         if (!passed)
@@ -99,6 +100,12 @@ private:
     void add(std::uint64_t primitive) {
         if (count_ < std::ptrdiff_t(crossed_.size()))
             crossed_[std::size_t(count_++)] = primitive;
+        else
+            has_forgotten_ = true;
+    }
+    /// Where a vertex has more triangles than are remembered, all that face as the last one are taken to be crossed.
+    [[nodiscard]] bool is_beyond_memory(T cosine) const {
+        return has_forgotten_ && forwards_ && (cosine > T(0)) == along_normal_;
     }
     void remove(std::uint64_t primitive) {
         const auto end = crossed_.begin() + count_;
@@ -111,6 +118,7 @@ private:
     T height_ = T(0), reach_ = T(0);
     bool forwards_ = true; ///< whether the ray goes on beyond these surfaces, or back to where it came from
     bool along_normal_ = false, begins_on_surface_ = false;
+    bool has_forgotten_ = false; ///< whether more primitives were crossed than `crossed_` holds
 };
 
 /// Optional: the scene can leave out primitives, so that surfaces may touch (Contacts).
