@@ -110,7 +110,7 @@ private:
             EyePath<T, F> seen = path;
             seen.throughput = seen.throughput * grey<F>(double(T(1) - share.reflected / covered));
             add_vertex(hit, seen, pixel, side,
-                       covered * (material.passes_light() ? T(1 - material.transmission) : T(1)));
+                       covered * (material.passes_light() ? T(1 - scene_.transmission(hit)) : T(1)));
         }
         path.throughput = path.throughput * grey<F>(double(covered));
         if (goes_on && material.surface != Surface::diffuse && material.surface != Surface::black)
@@ -147,7 +147,7 @@ private:
             pass(hit, path, at.beyond);
             return;
         }
-        const T transmission = T(material.transmission);
+        const T transmission = T(scene_.transmission(hit));
         if (material.surface == Surface::window) {
             const T once = scene_.reflectance(material, at), reflected = T(2) * once / (T(1) + once);
             reflect(hit, path, normal, facing, grey<F>(double(reflected)));

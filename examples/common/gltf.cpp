@@ -9,6 +9,7 @@
 #include "common/gltf/primitive.hpp"
 #include "common/gltf/recentring.hpp"
 #include "common/gltf/report.hpp"
+#include "common/gltf/texture.hpp"
 #include "common/gltf/tinygltf.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -36,12 +37,15 @@ std::string text_of(const glm::dvec3& v) {
 /// Builds the description node by node.
 class Reader {
 public:
-    Reader(const tinygltf::Model& model, std::size_t file_bytes, Warnings& warnings)
-        : model_(model), file_bytes_(file_bytes), budget_(file_bytes), warnings_(warnings) {}
+    /// @param folder  of the file
+    Reader(const tinygltf::Model& model, std::size_t file_bytes, const std::filesystem::path& folder,
+           Warnings& warnings)
+        : model_(model), file_bytes_(file_bytes), budget_(file_bytes), warnings_(warnings),
+          textures_(model, folder, budget_, warnings_) {}
 
     SceneDescription read() {
         for (std::size_t i = 0; i < model_.materials.size(); ++i)
-            scene_.materials.push_back(read_material(model_.materials[i], i, warnings_));
+            scene_.materials.push_back(read_material(model_.materials[i], i, textures_, warnings_));
 
         const std::vector<std::size_t> roots = roots_of(model_);
         scene_.origin = origin_for(model_, roots, scene_.materials, file_bytes_);
@@ -51,6 +55,7 @@ public:
                       [this](const tinygltf::Node& node, const std::string& name, const glm::dmat4& to_world) {
                           visit(node, name, to_world);
                       });
+        scene_.textures = textures_.take();
         return std::move(scene_);
     }
 
@@ -85,7 +90,10 @@ private:
             const tinygltf::Primitive& primitive = mesh.primitives[i];
             budget_.charge(1, 2 * sizeof(MeshDescription) + name.size());
             const std::string part = mesh.primitives.size() == 1 ? owner : owner + ", primitive " + std::to_string(i);
-            auto result = read_primitive(model_, primitive, to_world, part, budget_, warnings_);
+            static const MaterialDescription plain;
+            const MaterialDescription& material =
+                primitive.material == -1 ? plain : scene_.materials[material_of(primitive, part)];
+            auto result = read_primitive(model_, primitive, to_world, part, material, budget_, warnings_);
             if (!result)
                 continue;
             result->name = name;
@@ -109,6 +117,7 @@ private:
     std::size_t file_bytes_;
     Budget budget_;
     Warnings& warnings_;
+    TextureReader textures_;
     SceneDescription scene_;
 };
 
@@ -117,7 +126,7 @@ SceneDescription parse(std::span<const unsigned char> file, const std::filesyste
     std::size_t bytes = file.size();
     for (const tinygltf::Buffer& buffer : model.buffers)
         bytes += buffer.data.size();
-    SceneDescription scene = Reader(model, bytes, warnings).read();
+    SceneDescription scene = Reader(model, bytes, folder, warnings).read();
     scene.warnings = warnings.take();
     return scene;
 }

@@ -2,13 +2,18 @@
 /// @file  A glTF 2.0 file (.gltf or .glb) as plain data in world space: triangle meshes, materials, lights and cameras.
 #pragma once
 
+#include "common/texture.hpp"
+
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -25,6 +30,10 @@ struct MeshDescription {
     std::vector<glm::vec3> normals; ///< unit length, one for each position; empty: the triangles are flat
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< at least one; counter-clockwise seen from the front
     std::size_t material = 0;                            ///< index into `SceneDescription::materials`
+    std::array<std::vector<glm::vec2>, 2> coordinates;   ///< of the textures that the material uses: sets 0 and 1
+    /// For a normal map, one for each position, or empty: along x, y, z the map's first axis, of unit length, and in w
+    /// the sign of its second, cross(normal, tangent) · w. Zero: unknown.
+    std::vector<glm::vec4> tangents;
 };
 
 /// Colours are linear. The defaults are glTF's: a material without properties is a white, rough metal.
@@ -42,13 +51,26 @@ struct MaterialDescription {
     float attenuation_distance = std::numeric_limits<float>::infinity(); ///< > 0, world units
     glm::vec3 emission{0}; ///< radiance: emissiveFactor times emissiveStrength
     bool double_sided = false;
+    std::optional<TextureReference> color_texture;        ///< its colours, in sRGB, are factors of `base_color`
+    std::optional<TextureReference> transmission_texture; ///< its red is a factor of `transmission`
+    std::optional<TextureReference> normal_texture;
+    float normal_scale = 1;           ///< of the first two components of the normal map
+    bool has_opacity_texture = false; ///< the opacity of the colour texture is a factor of `coverage`
+    float alpha_cutoff = 0; ///< above 0, with such a texture: less coverage counts as 0, the rest as 1 (alphaMode MASK)
 
+    /// Whether one of its textures needs a set of coordinates.
+    [[nodiscard]] bool uses_coordinates(std::size_t set) const {
+        const auto uses = [set](const std::optional<TextureReference>& texture) {
+            return texture && texture->set == set;
+        };
+        return uses(color_texture) || uses(transmission_texture) || uses(normal_texture);
+    }
     [[nodiscard]] bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
     /// Whether it may make a caustic: smooth metal, and surfaces that transmit light or do not cover all of their area.
     [[nodiscard]] bool is_specular() const {
         const bool is_smooth = roughness < roughest_mirror;
         const bool reflects = is_smooth && (metallic >= 0.5f || !(ior > 0));
-        return !emits() && (reflects || (transmission > 0 && ior > 0) || coverage < 1);
+        return !emits() && (reflects || (transmission > 0 && ior > 0) || coverage < 1 || has_opacity_texture);
     }
     /// Metals of this roughness or more are rendered as diffuse.
     static constexpr float roughest_mirror = 0.4f;
@@ -87,6 +109,7 @@ struct CameraDescription {
 struct SceneDescription {
     std::vector<MeshDescription> meshes;        ///< in the order of the node graph; may be empty
     std::vector<MaterialDescription> materials; ///< those of the file; glTF's default at the end where a mesh needs it
+    std::vector<std::shared_ptr<const Texture>> textures; ///< that materials use
     std::vector<LightDescription> lights;
     std::vector<CameraDescription> cameras;
     std::vector<std::string> warnings; ///< one line for each thing that was left out or repaired
@@ -108,7 +131,8 @@ struct UnreadableGltf : std::runtime_error {
 /// KHR_lights_punctual, KHR_mesh_quantization, KHR_materials_transmission, _ior, _volume and _emissive_strength, and
 /// EXT_mesh_gpu_instancing. A scene whose specular surfaces are far from the origin is moved to the origin in double
 /// precision, because a caustic needs all seven digits of a float.
-/// Left out with a warning: points and lines, textures (images are not opened), animation, skins and morph targets.
+/// Textures of base colour, transmission and normals are read from PNG and JPEG, with KHR_texture_transform.
+/// Left out with a warning: points and lines, other textures, vertex colours, animation, skins and morph targets.
 /// Triangles without area are dropped; normals of length zero are replaced by those of the triangles around.
 ///
 /// Throws UnreadableGltf, one line with the file, what is wrong and where, for anything that is not such a file: also

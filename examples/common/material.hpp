@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/ray.hpp"
+#include "common/texture.hpp"
 
 #include "nephroid/emission/flux.hpp"
 #include "nephroid/vector/error.hpp"
@@ -10,6 +11,7 @@
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <memory>
 
 namespace nephroid::examples {
 
@@ -33,6 +35,15 @@ template <Flux F>
         return F(static_cast<typename F::value_type>(value));
 }
 
+/// A colour from red, green and blue: one band is their mean.
+template <Flux F>
+[[nodiscard]] F color_from_rgb(const glm::vec3& rgb) {
+    if constexpr (std::floating_point<F>)
+        return static_cast<F>((rgb.x + rgb.y + rgb.z) / 3);
+    else
+        return F(rgb);
+}
+
 enum class Surface : unsigned char {
     diffuse,    ///< `color` is the albedo
     mirror,     ///< `color` is the reflectance, the same at each angle
@@ -46,6 +57,21 @@ enum class Surface : unsigned char {
 enum class Follow : unsigned char {
     both,       ///< one of them, by Fresnel's reflectance; without Fresnel terms, the refracted one if there is one
     refraction, ///< the refracted one alone; reflected light is absorbed
+};
+
+/// The textures of a material, on triangles that have texture coordinates.
+struct MaterialTextures {
+    struct Layer {
+        std::shared_ptr<const Texture> texture; ///< null: there is none
+        TextureReference reference;
+    };
+
+    Layer color;        ///< a factor of `Material::color`
+    Layer transmission; ///< its red is a factor of `Material::transmission`
+    Layer normal;       ///< a normal map
+    double normal_scale = 1;
+    bool has_opacity = false; ///< the opacity of `color` is a factor of `Material::coverage`
+    double alpha_cutoff = 0;  ///< above 0: less coverage counts as 0, the rest as 1
 };
 
 template <Flux F>
@@ -68,16 +94,24 @@ struct Material {
     double transmission = 1;
     double coverage = 1; ///< 0 to 1: the share of the area that the surface covers; light passes through the rest
 
+    std::shared_ptr<const MaterialTextures> textures{}; ///< null: the same everywhere
+
     [[nodiscard]] bool passes_light() const { return surface == Surface::dielectric || surface == Surface::window; }
     [[nodiscard]] bool is_specular() const {
-        return passes_light() || surface == Surface::mirror || surface == Surface::conductor || coverage < 1;
+        return passes_light() || surface == Surface::mirror || surface == Surface::conductor || lets_light_past();
     }
     /// Whether a part of it is diffuse.
     [[nodiscard]] bool is_diffuse() const {
-        return (surface == Surface::diffuse || (passes_light() && transmission < 1)) && coverage > 0;
+        return (surface == Surface::diffuse || (passes_light() && is_partly_opaque())) && coverage > 0;
     }
     /// Whether it has parts that scatter light in different ways.
-    [[nodiscard]] bool is_mixture() const { return coverage < 1 || (passes_light() && transmission < 1); }
+    [[nodiscard]] bool is_mixture() const { return lets_light_past() || (passes_light() && is_partly_opaque()); }
+    /// Whether there are places that it does not cover, or covers in part.
+    [[nodiscard]] bool lets_light_past() const { return coverage < 1 || (textures && textures->has_opacity); }
+    /// Whether there are places that do not transmit all of the light that enters.
+    [[nodiscard]] bool is_partly_opaque() const {
+        return transmission < 1 || (textures && textures->transmission.texture);
+    }
     [[nodiscard]] bool emits() const { return flux_traits<F>::power(emission) > 0; }
 
     [[nodiscard]] static Material diffuse(const F& albedo) { return with(Surface::diffuse, albedo); }

@@ -2,7 +2,6 @@
 /// @file  A scene for the library's walk: parts, their materials, and the media that lamps stand in.
 #pragma once
 
-#include "common/parts.hpp"
 #include "common/surface_scattering.hpp"
 
 #include "nephroid/emission/target.hpp"
@@ -25,7 +24,7 @@ namespace nephroid::examples {
 /// @tparam T  float or double
 /// @tparam F  flux: T, or `glm::vec<3, T>` for red, green and blue
 template <class T, Flux F = Vec3<T>>
-class Scene : public Parts<T>, public SurfaceScattering<T, F> {
+class Scene : public SurfaceScattering<T, F> {
 public:
     using vector = Vec3<T>;
     using flux_type = F;
@@ -36,7 +35,7 @@ public:
 
     /// Throws std::invalid_argument for a material that does not exist.
     Scene(std::vector<Part> parts, std::vector<Material<F>> materials)
-        : Parts<T>(std::move(parts)), SurfaceScattering<T, F>(std::move(materials)) {
+        : SurfaceScattering<T, F>(std::move(parts), std::move(materials)) {
         for (std::size_t i = 0; i < this->parts().size(); ++i) {
             require_materials(i);
             collect_specular(this->parts()[i]);
@@ -59,7 +58,10 @@ public:
 
     [[nodiscard]] std::optional<Hit<T>> intersect(const Vec3<T>& origin, const Vec3<T>& direction, T t_min,
                                                   T t_max) const {
-        return this->nearest_hit({origin, direction, t_min, t_max}, AnyOrder());
+        auto hit = this->nearest_hit({origin, direction, t_min, t_max}, AnyOrder());
+        if (this->has_normal_maps() && hit)
+            this->apply_normal_map(*hit);
+        return hit;
     }
 
     /// The same without the surfaces that the ray has just left. Surfaces that touch come in the order in which light
@@ -71,7 +73,11 @@ public:
             const bool is_glass = this->materials()[material].surface == Surface::dielectric;
             return is_glass ? (leaves ? 1 : 0) : 2;
         };
-        return this->nearest_hit({origin, direction, t_min, t_max}, ContactOrder<T, decltype(rank)>{contacts, rank});
+        auto hit =
+            this->nearest_hit({origin, direction, t_min, t_max}, ContactOrder<T, decltype(rank)>{contacts, rank});
+        if (this->has_normal_maps() && hit)
+            this->apply_normal_map(*hit);
+        return hit;
     }
 
     /// The media around a point. Rays to both sides count the surfaces that they leave. The ray that goes up finds a

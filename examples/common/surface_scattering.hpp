@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// @file  What a scene's materials do with light: reflection, refraction, absorption, and mixtures of these.
+/// @file  What a scene's surfaces do with light: reflection, refraction, absorption, and mixtures of these.
 #pragma once
 
 #include "common/fresnel.hpp"
-#include "common/material.hpp"
-#include "common/ray.hpp"
+#include "common/surfaces.hpp"
 
 #include "nephroid/transport/media.hpp"
 #include "nephroid/transport/scattering.hpp"
@@ -12,8 +11,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
-#include <vector>
 
 namespace nephroid::examples {
 
@@ -38,21 +35,20 @@ struct Interface {
     bool is_real;   ///< false if the same medium is on both sides, so that light does not notice the surface
 };
 
-/// A scene's materials. A surface's inside is the side that its normal points away from. So a sheet of water over a
-/// basin does not need to be closed: a ray that enters the water is in it until it leaves it, or ends. Where insides
-/// overlap, the material of the highest priority fills the point; among equal ones, the one that the ray entered last.
+/// How a scene's surfaces scatter light. A surface's inside is the side that its normal points away from. So a sheet of
+/// water over a basin does not need to be closed: a ray that enters the water is in it until it leaves it, or ends.
+/// Where insides overlap, the material of the highest priority fills the point; among equal ones, the one that the ray
+/// entered last.
 ///
 /// @tparam T  float or double
 /// @tparam F  flux: T, or `glm::vec<3, T>` for red, green and blue
 template <class T, Flux F>
-class SurfaceScattering {
+class SurfaceScattering : public Surfaces<T, F> {
 public:
-    SurfaceScattering() = default;
-    explicit SurfaceScattering(std::vector<Material<F>> materials) : materials_(std::move(materials)) {}
-
-    [[nodiscard]] const std::vector<Material<F>>& materials() const { return materials_; }
-    [[nodiscard]] const Material<F>& material(const Hit<T>& hit) const { return materials_[hit.surface]; }
-    [[nodiscard]] const F& color(const Hit<T>& hit) const { return material(hit).color; }
+    using Surfaces<T, F>::Surfaces;
+    using Surfaces<T, F>::material;
+    using Surfaces<T, F>::materials;
+    using Surfaces<T, F>::color;
 
     /// For rays whose media are not known: they are taken to fly through air.
     template <class Sampler>
@@ -105,13 +101,13 @@ public:
     /// The shares at a mixture. Its rest is diffuse, or scattered as its surface says.
     [[nodiscard]] Shares shares(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
                                 const Medium& through = Medium{}) const {
-        const T covered = T(m.coverage);
+        const T covered = T(this->coverage(hit));
         if (!m.passes_light())
             return {T(1) - covered, T(0), T(0)};
         T reflected = reflectance(m, interface(m, hit, direction, through));
         if (m.surface == Surface::window) // the sum over all reflections between its two faces
             reflected = T(2) * reflected / (T(1) + reflected);
-        return {T(1) - covered, covered * reflected, covered * (T(1) - reflected) * T(m.transmission)};
+        return {T(1) - covered, covered * reflected, covered * (T(1) - reflected) * T(this->transmission(hit))};
     }
 
     /// How a ray in a medium meets a dielectric. A window is thin: a ray enters it from both sides, and leaves it
@@ -135,9 +131,9 @@ public:
     /// The share of the light that a mirror or a conductor reflects, by band.
     [[nodiscard]] F reflectance(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction) const {
         if (m.surface == Surface::mirror)
-            return m.color;
+            return color(hit);
         const T c = cosine(hit, direction);
-        return m.color *
+        return color(hit) *
                by_band([c](auto eta, auto k) { return conductor_reflectance(decltype(eta)(c), eta, k); }, m.eta, m.k);
     }
 
@@ -152,7 +148,7 @@ public:
     [[nodiscard]] F transmittance(const Medium& through, T distance) const {
         if (through.here() < 0)
             return grey<F>(1);
-        return beer(materials_[static_cast<std::size_t>(through.here())].absorption, distance);
+        return beer(materials()[static_cast<std::size_t>(through.here())].absorption, distance);
     }
 
 private:
@@ -182,8 +178,8 @@ private:
         return {Event::deposit};
     }
 
-    [[nodiscard]] double index_of(std::int32_t material) const {
-        return material < 0 ? 1 : materials_[static_cast<std::size_t>(material)].ior;
+    [[nodiscard]] double index_of(std::int32_t number) const {
+        return number < 0 ? 1 : materials()[static_cast<std::size_t>(number)].ior;
     }
 
     /// The cosine between the ray and the shading normal, or, if that faces away, the geometric normal.
@@ -192,8 +188,6 @@ private:
         const bool agree = (geometric > T(0)) == (shading > T(0));
         return (std::min)(abs(agree ? shading : geometric), T(1));
     }
-
-    std::vector<Material<F>> materials_;
 };
 
 } // namespace nephroid::examples

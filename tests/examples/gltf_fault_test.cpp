@@ -61,15 +61,15 @@ TEST_CASE("glTF: what is no file, or no glTF, is refused in one line that names 
     check_problem(problem_of(old), "version 1");
 }
 
-TEST_CASE("glTF: images are not opened, textures are left out with a warning") {
+TEST_CASE("glTF: only the images that materials use are opened; animations are not read") {
     GltfFile file;
-    file.materials = {R"({"name":"wood","pbrMetallicRoughness":{"baseColorTexture":{"index":0}}})"};
-    file.more = R"(,"images":[{"uri":"missing.png"},{"bufferView":99,"mimeType":"image/png"},{}],)"
-                R"("textures":[{"source":0}],"animations":[{"channels":[],"samplers":[]}])";
+    file.materials = {R"({"name":"wood","pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}}})"};
+    file.more = R"(,"images":[{"uri":"missing.png"},{"bufferView":99,"mimeType":"image/png"}],)"
+                R"("textures":[{"source":0}],"animations":[{"channels":[],"samplers":[]}],"extras":{"a":1})";
     const SceneDescription scene = parse(file);
     CHECK(warns(scene, "wood"));
-    CHECK(warns(scene, "only its factors are used"));
     CHECK(warns(scene, "animations"));
+    CHECK(scene.warnings.size() == 2);
 }
 
 TEST_CASE("glTF: an extension that is not read is refused if it is required, else warned of") {

@@ -18,7 +18,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 for (const std::uint32_t vertex : triangle)
                     if (vertex >= mesh.positions.size() || mesh.material >= description.materials.size())
                         std::abort();
-        static_cast<void>(scene_from<float>(description));
+        const auto scene = scene_from<float>(description).scene;
+        const auto hit = scene.intersect({0.1f, 0.2f, 9}, {0, 0, -1}, 0, 1e9f); // looks up textures
+        if (hit && !(scene.coverage(*hit) >= 0 && scene.transmission(*hit) >= 0 && scene.color(*hit).x >= 0))
+            std::abort();
     } catch (const std::runtime_error&) {
         // refused by the reader, with a message
     } catch (const std::invalid_argument&) {

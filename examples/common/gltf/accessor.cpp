@@ -183,6 +183,11 @@ std::vector<glm::vec<Components, float>> read_floats(const tinygltf::Model& mode
 }
 } // namespace
 
+std::vector<unsigned char> bytes_of_view(const tinygltf::Model& model, int index, std::string_view owner) {
+    const Bytes bytes = buffer_view(model, index, owner);
+    return {bytes.data, bytes.data + bytes.size};
+}
+
 AccessorView view_vectors(const tinygltf::Model& model, int index, std::string_view owner, int components) {
     const AccessorView view = view_accessor(model, index, components, owner);
     if (view.accessor->componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)

@@ -24,6 +24,11 @@ struct AccessorView {
     std::size_t stride = 0;              ///< bytes from one element to the next
 };
 
+/// The bytes of a buffer view, known to lie within its buffer, such as an image.
+///
+/// @param index  as the file has it; @param owner  of the index, for messages
+std::vector<unsigned char> bytes_of_view(const tinygltf::Model& model, int index, std::string_view owner);
+
 /// Finds an accessor and checks its type, its component type and its bounds, those of its sparse part included.
 ///
 /// @param index       as the file has it; @param owner  of the index, for messages

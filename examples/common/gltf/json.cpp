@@ -12,6 +12,7 @@ namespace nephroid::examples::gltf {
 namespace {
 
 constexpr std::size_t deepest = 100;
+constexpr std::string_view images = "images";
 constexpr std::size_t most_materials = 65536; // 2 KiB each in tinygltf, from three characters
 
 /// Follows the brackets and the strings of a JSON text.
@@ -33,6 +34,8 @@ public:
             case ',':
                 at_key_ = !open_.empty() && open_.back() == '{';
                 at_uri_ = false;
+                if (open_ == "{[" && section_ == images && ++image_commas_ > survey_.images)
+                    fail({"image ", std::to_string(survey_.images), " is not an object"});
                 break;
             case ':':
                 at_key_ = false;
@@ -63,6 +66,8 @@ private:
             has_uri_ = false;
         if (in_element_of("materials") && ++materials_ > most_materials)
             fail({"more than ", std::to_string(most_materials), " materials"});
+        if (in_element_of(images))
+            ++survey_.images;
     }
 
     void leave() {
@@ -103,7 +108,13 @@ private:
     void enter_section(std::span<char> name) {
         section_.assign(name.begin(), name.end());
         require_plain(section_);
-        constexpr std::array<std::string_view, 5> unread{"images", "textures", "samplers", "skins", "animations"};
+        constexpr std::string_view kept = "extras";
+        static_assert(images.size() == kept.size());
+        if (section_ == images) {
+            std::copy(kept.begin(), kept.end(), name.begin());
+            return;
+        }
+        constexpr std::array<std::string_view, 3> unread{kept, "skins", "animations"};
         if (std::find(unread.begin(), unread.end(), section_) == unread.end())
             return;
         if (section_ == "animations")
@@ -126,6 +137,7 @@ private:
     bool at_uri_ = false; ///< the next string is a buffer's uri
     bool has_uri_ = false;
     std::size_t materials_ = 0;
+    std::size_t image_commas_ = 0; ///< between images
 };
 } // namespace
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -82,29 +83,73 @@ glm::vec3 color_from(const std::vector<double>& factors, std::string_view owner,
             to_float(factors[2], owner, property)};
 }
 
-/// The coverage of a surface from its opacity. Source: glTF 2.0, section 3.9.4, alpha coverage.
-float coverage_of(const tinygltf::Material& material, std::string_view owner, const Clamp& clamp) {
-    const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
-    const float alpha = factor.size() < 4 ? 1.f : clamp(to_float(factor[3], owner, "opacity"), "opacity");
-    if (material.alphaMode == "BLEND")
-        return alpha;
-    if (material.alphaMode == "MASK")
-        return double{alpha} >= material.alphaCutoff ? 1.f : 0.f;
-    return 1;
+/// A reference to a texture in an extension, which tinygltf leaves as JSON.
+std::optional<TextureReference> texture_in(const tinygltf::Material& material, const char* extension,
+                                           const char* property, TextureReader& textures, const std::string& owner) {
+    const auto found = material.extensions.find(extension);
+    if (found == material.extensions.end() || !found->second.Has(property))
+        return std::nullopt;
+    const tinygltf::Value& reference = found->second.Get(property);
+    const auto whole_number = [&](const char* name, int missing) {
+        return reference.Has(name) && reference.Get(name).IsInt() ? reference.Get(name).GetNumberAsInt() : missing;
+    };
+    tinygltf::ExtensionMap extensions;
+    if (reference.Has("extensions") && reference.Get("extensions").IsObject())
+        for (const auto& [name, value] : reference.Get("extensions").Get<tinygltf::Value::Object>())
+            extensions.emplace(name, value);
+    return textures.reference(whole_number("index", -1), whole_number("texCoord", 0), extensions, owner);
 }
 
-bool is_textured(const tinygltf::Material& material) {
-    const auto& surface = material.pbrMetallicRoughness;
-    if (surface.baseColorTexture.index >= 0 || surface.metallicRoughnessTexture.index >= 0 ||
-        material.normalTexture.index >= 0 || material.emissiveTexture.index >= 0)
-        return true;
-    return std::any_of(material.extensions.begin(), material.extensions.end(), [](const auto& extension) {
-        return extension.second.Has("transmissionTexture") || extension.second.Has("thicknessTexture");
-    });
+void read_textures(MaterialDescription& result, const tinygltf::Material& material, TextureReader& textures,
+                   const std::string& owner) {
+    const auto& color = material.pbrMetallicRoughness.baseColorTexture;
+    result.color_texture = textures.reference(color.index, color.texCoord, color.extensions, owner);
+    result.transmission_texture =
+        texture_in(material, "KHR_materials_transmission", "transmissionTexture", textures, owner);
+    const auto& normal = material.normalTexture;
+    result.normal_texture = textures.reference(normal.index, normal.texCoord, normal.extensions, owner);
+    result.normal_scale = to_float(normal.scale, owner, "normalTexture.scale");
+}
+
+/// Reads how much of its area a surface covers, by its opacity. Source: glTF 2.0, section 3.9.4, alpha coverage.
+void read_coverage(MaterialDescription& result, const tinygltf::Material& material, std::string_view owner,
+                   const Clamp& clamp) {
+    const bool is_mask = material.alphaMode == "MASK";
+    if (!is_mask && material.alphaMode != "BLEND")
+        return;
+    const std::vector<double>& factor = material.pbrMetallicRoughness.baseColorFactor;
+    const float alpha = factor.size() < 4 ? 1.f : clamp(to_float(factor[3], owner, "opacity"), "opacity");
+    const float cutoff = to_float(material.alphaCutoff, owner, "alphaCutoff");
+    result.coverage = alpha;
+    if (is_mask && !(cutoff > 0)) { // no opacity is below it
+        result.coverage = 1;
+    } else if (result.color_texture) {
+        result.has_opacity_texture = true;
+        result.alpha_cutoff = is_mask ? cutoff : 0;
+    } else if (is_mask) {
+        result.coverage = double{alpha} >= material.alphaCutoff ? 1.f : 0.f;
+    }
+}
+
+/// The textures that are not read, for a warning; empty if there are none.
+std::string unread_textures(const tinygltf::Material& material) {
+    std::string names;
+    const auto list = [&names](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };
+    if (material.pbrMetallicRoughness.metallicRoughnessTexture.index >= 0)
+        list("metallicRoughnessTexture");
+    if (material.emissiveTexture.index >= 0)
+        list("emissiveTexture");
+    for (const auto& [name, extension] : material.extensions)
+        if (extension.IsObject())
+            for (const std::string& property : extension.Keys())
+                if (property.ends_with("Texture") && property != "transmissionTexture")
+                    list(property);
+    return names;
 }
 } // namespace
 
-MaterialDescription read_material(const tinygltf::Material& material, std::size_t index, Warnings& warnings) {
+MaterialDescription read_material(const tinygltf::Material& material, std::size_t index, TextureReader& textures,
+                                  Warnings& warnings) {
     const std::string owner = named("material", index, material.name);
     const Clamp clamp(owner, warnings);
     const auto& surface = material.pbrMetallicRoughness;
@@ -115,9 +160,10 @@ MaterialDescription read_material(const tinygltf::Material& material, std::size_
     result.base_color = clamp(color_from(surface.baseColorFactor, owner, "baseColorFactor"), "baseColorFactor");
     result.metallic = clamp(to_float(surface.metallicFactor, owner, "metallicFactor"), "metallicFactor");
     result.roughness = clamp(to_float(surface.roughnessFactor, owner, "roughnessFactor"), "roughnessFactor");
-    if (is_textured(material))
-        warnings.add(owner + " has textures; only its factors are used");
-    result.coverage = coverage_of(material, owner, clamp);
+    if (const std::string unread = unread_textures(material); !unread.empty())
+        warnings.add(owner + " has textures that are not read, only their factors: " + unread);
+    read_textures(result, material, textures, owner);
+    read_coverage(result, material, owner, clamp);
 
     const Extension transmission(material, "KHR_materials_transmission", owner);
     result.transmission = clamp(transmission.number("transmissionFactor", 0), "transmissionFactor");

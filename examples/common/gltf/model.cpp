@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "common/gltf/model.hpp"
 
+#include "common/gltf/image_bytes.hpp"
 #include "common/gltf/json.hpp"
 
 #include <algorithm>
@@ -20,14 +21,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 7> read_extensions{
+constexpr std::array<std::string_view, 8> read_extensions{
     "KHR_lights_punctual",  "KHR_mesh_quantization",           "KHR_materials_transmission", "KHR_materials_ior",
-    "KHR_materials_volume", "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",
+    "KHR_materials_volume", "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",    "KHR_texture_transform",
 };
 
-/// These extensions are about images, which are not read.
-constexpr std::array<std::string_view, 4> image_extensions{"KHR_texture_transform", "KHR_texture_basisu",
-                                                           "EXT_texture_webp", "EXT_texture_avif"};
+/// These extensions are about how images are stored. Materials that use such an image do without it, with a warning.
+constexpr std::array<std::string_view, 4> image_extensions{"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif",
+                                                           "MSFT_texture_dds"};
 
 bool is_read(std::string_view extension) {
     return std::find(read_extensions.begin(), read_extensions.end(), extension) != read_extensions.end() ||
@@ -236,6 +237,8 @@ tinygltf::Model load_model(std::span<const unsigned char> file, const std::files
         check_version(model.asset);
     if (!complete || !error.empty()) // tinygltf leaves out broken primitives and goes on
         fail({"broken glTF: ", error.empty() ? "tinygltf does not say why" : error});
+    if (survey.images != image_count(model)) // tinygltf skips them, which would make others of their indices
+        fail({"an image is an empty object; it needs a uri or a buffer view"});
     return model;
 }
 

@@ -2,6 +2,7 @@
 #include "common/gltf/primitive.hpp"
 
 #include "common/gltf/accessor.hpp"
+#include "common/gltf/texture_coordinates.hpp"
 #include "common/gltf/transform.hpp"
 
 #include <glm/geometric.hpp>
@@ -138,8 +139,8 @@ std::vector<glm::vec3> read_normals(const tinygltf::Model& model, const Accessor
 } // namespace
 
 std::optional<MeshDescription> read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                                              const glm::dmat4& to_world, std::string_view owner, Budget& budget,
-                                              Warnings& warnings) {
+                                              const glm::dmat4& to_world, std::string_view owner,
+                                              const MaterialDescription& material, Budget& budget, Warnings& warnings) {
     if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
         fail({owner, " is of the mode ", std::to_string(primitive.mode), "; glTF has 0 to 6"});
     if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
@@ -184,6 +185,9 @@ std::optional<MeshDescription> read_primitive(const tinygltf::Model& model, cons
                   " normals"});
         mesh.normals = read_normals(model, normals, transform, mesh, owner, warnings);
     }
+    if (attribute("COLOR_0") != -1)
+        warnings.add(std::string(owner) + " has vertex colours (COLOR_0), which are not read");
+    read_texture_coordinates(mesh, model, primitive, material, to_world, owner, budget, warnings);
     return mesh;
 }
 

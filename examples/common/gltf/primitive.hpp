@@ -13,13 +13,13 @@
 
 namespace nephroid::examples::gltf {
 
-/// Reads positions, normals and triangles; the caller adds name and material.
+/// Reads positions, normals, triangles, and what the material's textures need; the caller adds name and material.
 ///
-/// @param owner  such as `mesh 3 ("sphere")`, for messages
+/// @param owner     such as `mesh 3 ("sphere")`, for messages
+/// @param material  of the primitive
 /// @return  nothing, with a warning, for points, lines, and where no triangle has an area
-[[nodiscard]] std::optional<MeshDescription> read_primitive(const tinygltf::Model& model,
-                                                            const tinygltf::Primitive& primitive,
-                                                            const glm::dmat4& to_world, std::string_view owner,
-                                                            Budget& budget, Warnings& warnings);
+[[nodiscard]] std::optional<MeshDescription>
+read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const glm::dmat4& to_world,
+               std::string_view owner, const MaterialDescription& material, Budget& budget, Warnings& warnings);
 
 } // namespace nephroid::examples::gltf

@@ -55,6 +55,15 @@ public:
         return data_.materials.empty() ? 0 : data_.materials[triangle];
     }
 
+    /// The barycentric coordinates, of the second and the third corner, of a point on a triangle.
+    [[nodiscard]] std::array<wide, 2> barycentric(std::size_t triangle, const Vec3<T>& point) const {
+        const auto [p0, p1, p2] = corners(triangle);
+        const WideVec3 e1 = widen(p1) - widen(p0), e2 = widen(p2) - widen(p0), from_p0 = widen(point) - widen(p0);
+        const WideVec3 face = wide_cross<T>(e1, e2);
+        const wide area2 = dot(face, face);
+        return {dot(wide_cross<T>(from_p0, e2), face) / area2, dot(wide_cross<T>(e1, from_p0), face) / area2};
+    }
+
     [[nodiscard]] std::optional<Candidate<T>> nearest(const Ray<T>& ray, wide t_max) const {
         return search(ray, t_max, false, AnyOrder());
     }

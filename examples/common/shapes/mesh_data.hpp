@@ -6,6 +6,9 @@
 
 #include "nephroid/vector/error.hpp"
 
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +23,10 @@ struct MeshData {
     std::vector<Vec3<T>> normals; ///< one for each position, of any length; zero, or no normals at all: flat
     std::vector<std::array<std::uint32_t, 3>> triangles; ///< counter-clockwise seen from where the normal points
     std::vector<std::uint32_t> materials;                ///< one for each triangle; empty: all are material 0
+
+    // What textures need, each one for each position, or empty if no material has a texture.
+    std::array<std::vector<glm::vec2>, 2> coordinates; ///< two sets of texture coordinates
+    std::vector<glm::vec4> tangents; ///< of normal maps: x, y, z the first axis, w the sign of the second; zero: no map
 
     [[nodiscard]] std::array<Vec3<T>, 3> corners(std::size_t triangle) const {
         const auto& t = triangles[triangle];
@@ -43,6 +50,11 @@ void validate(const MeshData<T>& data) {
     for (std::size_t i = 0; i < data.normals.size(); ++i)
         if (!all_finite(data.normals[i]))
             complain("normal " + std::to_string(i) + " is not finite");
+    for (const auto& set : data.coordinates)
+        if (!set.empty() && set.size() != data.positions.size())
+            complain("there must be as many texture coordinates as positions, or none");
+    if (!data.tangents.empty() && data.tangents.size() != data.positions.size())
+        complain("there must be as many tangents as positions, or none");
     if (!data.materials.empty() && data.materials.size() != data.triangles.size())
         complain("there must be as many materials as triangles, or none");
 }
