@@ -134,6 +134,19 @@ TEST_CASE("glTF: a mesh is closed where every edge has two sides, also if its ve
     open.triangles.pop_back();
     CHECK_FALSE(enclosure_of(open).is_closed);
     CHECK_FALSE(enclosure_of(parse(file_with(horizontal_square(1))).meshes.at(0)).is_closed);
+    // Exporters compute the pole's vertices one by one, each with a radius of sin(pi): 1e-16 in double, 9e-8 in float.
+    for (const double radius : {1.2e-16, 8.7e-8}) {
+        MeshDescription noisy = sphere;
+        for (std::size_t i = 0; i <= 32; ++i) {
+            glm::vec3& pole = noisy.positions.at(noisy.positions.size() - 1 - i);
+            pole += glm::vec3(2 * radius * glm::dvec3(std::cos(double(i)), 0, std::sin(double(i))));
+        }
+        CHECK(enclosure_of(noisy).is_closed);
+        noisy.triangles.pop_back();
+        CHECK_FALSE(enclosure_of(noisy).is_closed);
+        noisy.positions.back().x += 1e-4f; // a gap that is none of rounding
+        CHECK_FALSE(enclosure_of(noisy).is_closed);
+    }
     MeshDescription turned = sphere; // one triangle the wrong way round
     std::swap(turned.triangles[40][0], turned.triangles[40][1]);
     CHECK_FALSE(enclosure_of(turned).is_closed);

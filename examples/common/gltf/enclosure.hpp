@@ -11,7 +11,8 @@ struct Enclosure {
     double volume = 0;      ///< of a closed mesh, world units cubed; negative where its triangles face inwards
 };
 
-/// Vertices at one position count as one, because files split them where texture coordinates or normals differ.
+/// Vertices at one position, to a few roundings of float, count as one, because files split them where texture
+/// coordinates or normals differ.
 [[nodiscard]] Enclosure enclosure_of(const MeshDescription& mesh);
 
 } // namespace nephroid::examples::gltf
