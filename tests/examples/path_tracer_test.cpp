@@ -456,6 +456,19 @@ TEST_CASE("path tracer: what it cannot do is refused by name") {
     Case empty = ring;
     empty.film.x_max = empty.film.x_min;
     CHECK(refusal(empty, 4, few(1)).find("film") != std::string::npos);
+
+    // Glass in glass is refused, glass beside glass is not, nor is a mirror in glass.
+    const auto with_second = [&](const Vec3<double>& centre, const Material<double>& second) {
+        Case two = ring;
+        two.scene = {{{Floor<double>(0), 0}, {Sphere<double>({0, 0, 2}, 1), 1}, {Sphere<double>(centre, 0.5), 2}},
+                     {Material<double>::diffuse(1), Material<double>::dielectric(1.5), second}};
+        return refusal(two, 4, few(1));
+    };
+    const auto water = Material<double>::dielectric(1.33);
+    CHECK(with_second({0, 0, 2}, water).find("parts 1 and 2 overlap, and both are of glass") != std::string::npos);
+    CHECK(with_second({0.9, 0, 2}, water).find("both are of glass") != std::string::npos);
+    CHECK(with_second({3, 0, 2}, water) == "accepted");
+    CHECK(with_second({0, 0, 2}, Material<double>::mirror(1)) == "accepted");
 }
 
 // As photons carry it: the library's light, walked through the same scene. 200,000 Halton photons are good to a

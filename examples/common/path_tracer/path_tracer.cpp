@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <variant>
 
 namespace nephroid::examples {
 
@@ -17,9 +18,39 @@ using Clock = std::chrono::steady_clock;
 
 [[noreturn]] void refuse(const std::string& what) { invalid_argument("path_trace_reference: " + what); }
 
+/// Whether a part is made of glass that light bends in, or has triangles of it.
+[[nodiscard]] bool is_of_glass(const Scene<double, double>& scene, std::size_t part) {
+    const auto bends = [&](std::size_t material) { return scene.materials()[material].surface == Surface::dielectric; };
+    const auto* mesh = std::get_if<TriangleMesh<double>>(&scene.parts()[part].shape);
+    if (!mesh)
+        return bends(scene.parts()[part].material);
+    for (std::size_t i = 0; i < mesh->data().triangles.size(); ++i)
+        if (bends(mesh->material(i)))
+            return true;
+    return false;
+}
+
+/// A path here takes its medium from the surface at its end alone (SpecularPaths), so that glass in glass, and glass
+/// that touches other glass, would bend light as if there were air between.
+void check_media(const Scene<double, double>& scene) {
+    const auto overlap = [](const Box<double>& a, const Box<double>& b) {
+        bool apart = false;
+        for (int axis = 0; axis < 3; ++axis)
+            apart = apart || a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis];
+        return !apart;
+    };
+    for (std::size_t i = 0; i < scene.parts().size(); ++i)
+        for (std::size_t j = i + 1; j < scene.parts().size(); ++j)
+            if (is_of_glass(scene, i) && is_of_glass(scene, j) &&
+                overlap(scene.bounds_of(scene.parts()[i]), scene.bounds_of(scene.parts()[j])))
+                refuse("the bounds of parts " + std::to_string(i) + " and " + std::to_string(j) +
+                       " overlap, and both are of glass; paths do not know which is inside the other. Move them apart");
+}
+
 void check(const BuiltinCase<double, double>& builtin, std::size_t width, std::size_t height,
            const PathTraceOptions& options) {
     const FilmRectangle& film = builtin.film;
+    check_media(builtin.scene);
     if (builtin.emitters.empty() || builtin.emitters.size() != builtin.light.lights().size())
         refuse("a light has no area, and paths from the floor meet none that has not; pass a disk or a sphere");
     for (const double bound : {film.x_min, film.x_max, film.y_min, film.y_max})

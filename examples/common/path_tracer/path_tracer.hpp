@@ -50,8 +50,9 @@ using PathTraceProgress = std::function<bool(const PathTracedReference&)>;
 /// Therefore there are rehearsals: passes that only look for light, and do not count.
 ///
 /// The result is the same bit for bit for any number of threads; it depends on the clock only through `seconds`.
-/// Throws std::invalid_argument for a film or options out of range, and for a case with a light that has no area: no
-/// path meets it.
+/// Throws std::invalid_argument for a film or options out of range, for a case with a light that has no area (no path
+/// meets it), and for parts of glass whose bounds overlap (paths do not know media within media). Not checked: that one
+/// mesh does not have glass within glass, and that surfaces do not touch.
 [[nodiscard]] PathTracedReference path_trace_reference(const BuiltinCase<double, double>& builtin, std::size_t width,
                                                        std::size_t height, const PathTraceOptions& options,
                                                        const AnyExecutor& executor,
