@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/smoothing/second_order/emission_cells.hpp"
+#include "nephroid/smoothing/second_order/map_kinks.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
 #include "nephroid/vector/plane.hpp"
 
@@ -27,6 +28,7 @@ struct GroupCell {
     PlaneMatrix to_frame{}; ///< takes steps between emission coordinates to displacements in the frame
     std::array<PlaneMatrix, 2> to_frame_by_side{};
     PathDerivatives map{}; ///< at the middle
+    MapKinks kinks{};      ///< in the cell, later also around it (GroupField)
     Symmetric2 log_q{}, shape{};
     bool has_frame = false;
     bool is_resolved = false;       ///< whether the photons determined the derivatives

@@ -56,6 +56,7 @@ public:
         }
         find_borders(cells_, photons, options_.bounds.largest_radius);
         find_borders_across(cells_, options_.bounds.largest_radius);
+        spread_kinks(run);
         for_each_cell([&](GroupCell& cell) { choose_shape(cell); });
         is_contradicted_ = !options_.repeats && are_shapes_contradicted(); // a floor that repeats has jumps of its own
     }
@@ -122,19 +123,37 @@ private:
         return coordinates;
     }
 
+    /// Blurs the kinks over a few cells, as far as a footprint reaches. If footprints narrowed within one cell, their
+    /// shift would follow that change, and draw streaks along the edges of a mesh.
+    void spread_kinks(const TaskRunner& run) {
+        constexpr int passes = 4;
+        std::vector<MapKinks> blurred(cells_.size());
+        for (int pass = 0; pass < passes; ++pass) {
+            for_each_index(run, cells_.size(), 256, [&](std::size_t i) {
+                blurred[i] = {};
+                cells_.for_each_around(
+                    cells_[i], [&](const GroupCell& other, double weight) { blurred[i].add(other.kinks, weight); });
+            });
+            for (std::size_t i = 0; i < cells_.size(); ++i)
+                cells_[i].kinks = blurred[i];
+        }
+    }
+
     /// Chooses the shape from how much the map bends, averaged over the cells around.
     void choose_shape(GroupCell& cell) const {
         if (!cell.is_resolved)
             return;
         double weights = 0;
         Symmetric2 blurred{};
+        MapKinks kinks;
         cells_.for_each_around(cell, [&](const GroupCell& other, double weight) {
             if (!other.is_resolved)
                 return;
             blurred += weight * congruent(cell.frame.axes_of(other.frame), other.log_q);
+            kinks.add(other.kinks, weight);
             weights += weight;
         });
-        cell.shape = options_.scale * shape_tensor((1 / weights) * blurred, density_, options_.bounds);
+        cell.shape = options_.scale * shape_tensor((1 / weights) * blurred, density_, options_.bounds, kinks.density());
     }
 
     /// A cell's shape at a photon, in the cell's frame, bounded by the border of the group.

@@ -2,9 +2,11 @@
 /// @file  The rule that chooses the size and shape of a photon's footprint from how much the map bends.
 ///
 /// A photon's footprint has the covariance m₂ J S Jᵀ. S is a symmetric tensor in emission coordinates with the unit
-/// u0; S = s² 1 is the plain splat of smoothing s. After the shift of the centre (second_order.hpp) the remaining bias
-/// is of fourth order. It is modelled as 0.02 tr(S Q)², where Q measures how much the map bends within a unit step in
-/// each direction. With s⁴ = det S, the variance is 1.8/s² for random and 2.8/s⁴ for stratified photons.
+/// u0; S = s² 1 is the plain splat of smoothing s. After the shift of the centre (second_order.hpp) the remaining
+/// bias is of fourth order. It is modelled as 0.02 tr(S Q)², where Q measures how much the map bends within a unit
+/// step in each direction. With s⁴ = det S, the variance is 1.8/s² for random and 2.8/s⁴ for stratified photons.
+/// Kinks add 0.14 κ s to the squared bias, since a footprint meets them in proportion to its width and no shift
+/// helps there.
 ///
 /// For a given det S the bias is least if S is in proportion to Q⁻¹: wide where the map is straight and narrow where
 /// it bends. Then tr(S Q) = 2 s² sqrt(det Q), and only s is left to minimise over [include/nephroid/README.md,
@@ -51,25 +53,39 @@ struct PhotonDensity {
     double share = 1;        ///< of them that took this path, in (0, 1]
 };
 
+/// The s at which the squared error is least: stratified/s⁴ + random/s² + g² s⁸ + k s.
+///
+/// @param stratified, random  parts of the variance, >= 0 and not both 0
+/// @param g                   bias over s⁴, > 0 (`remaining_bias`)
+/// @param k                   squared bias over s, >= 0
+[[nodiscard]] inline double best_smoothing(double stratified, double random, double g, double k) {
+    // Without kinks and with either variance alone s¹² is stratified/(2 g²), and s¹⁰ random/(4 g²).
+    const double g2 = g * g;
+    double s = (std::max)(std::pow(stratified / (2 * g2), 1.0 / 12), std::pow(random / (4 * g2), 1.0 / 10));
+    // Newton's method for log of the growing part of s d/ds over the falling one, in log s: its slope is 3 to 12.
+    for (int step = 0; step < 8; ++step) {
+        const double s2 = s * s, s4 = s2 * s2;
+        const double bend = 8 * g2 * s4 * s4, kink = k * s, grows = bend + kink;
+        const double kept_apart = 4 * stratified / s4, chance = 2 * random / s2, falls = kept_apart + chance;
+        const double slope = (8 * bend + kink) / grows + (4 * kept_apart + 2 * chance) / falls;
+        s *= std::pow(falls / grows, 1 / slope);
+    }
+    return s;
+}
+
 /// S from log Q.
 ///
 /// Where a share p of the photons takes a path, each stands for 1/p times as much of the domain, and the rule holds in
 /// that unit. The bounds do not, because wide footprints of few photons would spill over edges. If chance selects a
 /// share of stratified photons, the variance is 1.8 (1 − p)/s² + 2.8 p²/s⁴.
+///
+/// @param kinks  κ, squared jumps per u0 (`MapKinks::density`)
 [[nodiscard]] inline Symmetric2 shape_tensor(const Symmetric2& log_q, const PhotonDensity& density,
-                                             const SmoothingBounds& bounds) {
-    const double p = density.share, g = remaining_bias(log_q) / (p * p);
-    const double random = 0.923 * std::pow(g, -1.0 / 5);
-    double s = random;
-    if (density.stratified) {
-        const double regular = 1.028 * std::pow(g, -1.0 / 6);
-        s = regular;
-        // The minimum is where s¹² = (1 − p) random¹⁰ s² + p² regular¹². Each step leaves a sixth of the
-        // error.
-        if (p < 1)
-            for (int step = 0; step < 8; ++step)
-                s = std::pow((1 - p) * std::pow(random, 10) * s * s + p * p * std::pow(regular, 12), 1.0 / 12);
-    }
+                                             const SmoothingBounds& bounds, double kinks = 0) {
+    constexpr double random = 1.8, stratified = 2.8, kink = 0.14;
+    const double p = density.share, g = remaining_bias(log_q) / (p * p), k = kink * kinks / std::sqrt(p);
+    const double s = density.stratified ? best_smoothing(stratified * p * p, random * (1 - p), g, k)
+                                        : best_smoothing(0, random, g, k);
     return shape_with_smoothing(log_q, (std::max)(bounds.least, s / std::sqrt(p)), bounds);
 }
 
