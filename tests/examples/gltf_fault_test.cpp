@@ -225,7 +225,7 @@ TEST_CASE("glTF: accessors and buffer views beyond their bytes are refused") {
     check_problem(with_sparse("5", u16, ""), "replaces 5");
     check_problem(with_sparse("-1", u16, ""), "replaces -1");
     check_problem(with_sparse("1", R"(,"componentType":5126)", ""), "sparse indices");
-    check_problem(with_sparse("1", u16 + R"(,"byteOffset":-2)", ""), "beyond");
+    check_problem(with_sparse("1", u16 + R"(,"byteOffset":-2)", ""), "byteOffset is negative");
     check_problem(with_sparse("1", u16, R"(,"byteOffset":40)"), "beyond");
 
     GltfFile file = file_with(horizontal_square(1));

@@ -33,7 +33,7 @@ public:
                 break;
             case ',':
                 at_key_ = !open_.empty() && open_.back() == '{';
-                at_uri_ = false;
+                at_uri_ = at_offset_ = false;
                 if (open_ == "{[" && section_ == images && ++image_commas_ > survey_.images)
                     fail({"image ", std::to_string(survey_.images), " is not an object"});
                 break;
@@ -48,6 +48,10 @@ public:
                 i = end;
                 break;
             }
+            case '-':
+                if (at_offset_)
+                    fail({"a byteOffset is negative"}); // which newer releases of tinygltf take for none
+                break;
             default:
                 break;
             }
@@ -61,7 +65,7 @@ private:
         if (open_.size() > deepest)
             fail({"its JSON is nested more than ", std::to_string(deepest), " deep"});
         at_key_ = bracket == '{';
-        at_uri_ = false;
+        at_uri_ = at_offset_ = false;
         if (in_element_of("buffers"))
             has_uri_ = false;
         if (in_element_of("materials") && ++materials_ > most_materials)
@@ -75,7 +79,7 @@ private:
             ++survey_.buffers_without_uri;
         if (!open_.empty())
             open_.pop_back();
-        at_key_ = at_uri_ = false;
+        at_key_ = at_uri_ = at_offset_ = false;
     }
 
     [[nodiscard]] std::size_t closing_quote(std::size_t opening) const {
@@ -87,6 +91,7 @@ private:
 
     void read_string(std::span<char> content) {
         const std::string_view word(content.data(), content.size());
+        at_offset_ = at_key_ && word == "byteOffset";
         if (at_key_ && open_ == "{")
             enter_section(content);
         else if (at_key_ && in_element_of("buffers")) {
@@ -136,6 +141,7 @@ private:
     bool at_key_ = false; ///< the next string is a key
     bool at_uri_ = false; ///< the next string is a buffer's uri
     bool has_uri_ = false;
+    bool at_offset_ = false; ///< the next value is a byteOffset
     std::size_t materials_ = 0;
     std::size_t image_commas_ = 0; ///< between images
 };

@@ -49,9 +49,8 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
                                   "and let `scatter` answer reflect or refract there"});
     } else {
         add(part_of(double(s.opaque_first) + double(s.escaped_first), emitted), 0.4,
-            "the photons missed the mirrors and glass: give the light a narrower target, a sphere about them, or "
-            "several "
-            "(emission/separate_targets.hpp)");
+            "the photons missed the mirrors and glass, or ended on a diffuse part of them: if they missed, give the "
+            "light a narrower target, a sphere about them, or several (emission/separate_targets.hpp)");
     }
     add(part_of(double(s[Fate::invalid].photons), emitted), 1e-3,
         "the photons are invalid: a number of the hit or of `scatter` was none, a normal or direction was not unit "
