@@ -10,6 +10,7 @@
 #include "nephroid/emission/light_set.hpp"
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/sphere_direction.hpp"
 #include "transport/tiny_scenes.hpp"
 
 #include <doctest/doctest.h>
