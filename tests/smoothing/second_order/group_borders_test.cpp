@@ -89,7 +89,7 @@ TEST_CASE("group borders: footprints of a small group are bounded on all of its 
         const Field field = field_of(photons, {.stratified = true, .photons = double(samples.size())});
         const double u0 = unit_of(double(samples.size()));
         double over = 0;
-        int checked = 0;
+        int checked = 0, in_the_middle = 0;
         for (const auto& photon : photons) {
             if (photon.signature != 2)
                 continue;
@@ -100,10 +100,18 @@ TEST_CASE("group borders: footprints of a small group are bounded on all of its 
             const double along_x = std::sqrt(here->shape.xx) - (0.125 - std::abs(u - 0.5)) / u0,
                          along_y = std::sqrt(here->shape.yy) - (0.125 - std::abs(v - 0.45)) / u0;
             CHECK((std::max)(along_x, along_y) <= 1.5 * unit_per_cell * step);
-            over += (std::max)(along_x, along_y);
+            over += (std::max)({0.0, along_x, along_y});
             ++checked;
+            if (std::hypot(u - 0.5, v - 0.45) > 0.02)
+                continue;
+            // In the middle both borders are as far: (ρ⁻⁴ + m⁻⁴)^(−1/4) is 0.84 m where the radius ρ would be m or more,
+            // and m is found to a cell and a half.
+            const double half_width = 0.125 / u0;
+            CHECK(std::sqrt(here->shape.xx) >= 0.84 * (half_width - 1.5 * unit_per_cell * step) - 1);
+            ++in_the_middle;
         }
         REQUIRE(checked > 200);
+        REQUIRE(in_the_middle > 3);
         CHECK(over / checked <= 0.5 * unit_per_cell * step);
     }
 }

@@ -120,9 +120,15 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
     const EmissionCells& grid = cells.grid();
     const auto middle = grid.middle(cell.square);
     const Plane2 by_unit = cell.to_frame.inverse()(direction);
-    const double side = std::sqrt(std::abs(cell.to_frame.determinant()) / double(grid.size())), step = 0.5 * side;
+    // Half a cell at most along either coordinate, so that none is jumped over.
+    const double step =
+        0.5 / (std::max)(std::abs(by_unit.x) * double(grid.columns()), std::abs(by_unit.y) * double(grid.rows()));
+    if (!(step > 0) || !std::isfinite(step))
+        return endless; // the frame is singular here
+    const double side = 2 * step;
+    const double furthest = (std::min)(largest_radius + step, 2 * step * double(grid.columns() + grid.rows()));
     const GroupCell* last = &cell;
-    for (double at = step; at <= largest_radius + step; at += step) {
+    for (double at = step; at <= furthest; at += step) {
         std::array<double, 2> sample{middle[0] + at * by_unit.x, middle[1] + at * by_unit.y};
         for (double& u : sample) {
             if (grid.repeats())
@@ -146,7 +152,7 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
     return endless;
 }
 
-/// Finds for each cell with a border nearby how far the border is across that one: in a corner of the group, or in a
+/// Finds for each cell that a border was found for how far the border is across that one: in a corner of the group, or in a
 /// group that is no wider than footprints, both bound them.
 inline void find_borders_across(GroupCells& cells, double largest_radius) {
     for (std::size_t i = 0; i < cells.size(); ++i) {

@@ -26,7 +26,8 @@ struct MapKinks {
 
 /// The kinks among some photons. A line through them of length |δ| crosses a kink with a chance in proportion to |δ|,
 /// however large the kink is, so that |J⁻¹ΔJ|²/|δ| has the same mean for any distance δ of the nearest photon. A
-/// smooth map has almost none.
+/// smooth map has almost none. Of photons in one cell, those beside its border may have their nearest neighbour in the
+/// next cell, which is not seen: up to a third of the pairs, and of the kinks, in a cell of nine.
 ///
 /// Jumps of more than a third of the tangents count the less the larger they are. Where a map is singular (the rim of a
 /// ball) all photons differ by as much, and smaller footprints would only show single photons.
