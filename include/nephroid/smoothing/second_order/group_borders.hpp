@@ -152,7 +152,7 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
     return endless;
 }
 
-/// Finds for each cell that a border was found for how far the border is across that one: in a corner of the group, or in a
+/// Finds for each cell that has a border how far the border is across that one: in a corner of the group, or in a
 /// group that is no wider than footprints, both bound them.
 inline void find_borders_across(GroupCells& cells, double largest_radius) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
