@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: the visitor follows all ways, but the scene lacks scatter_all(hit, direction) const
+// expect: the scene lacks scatter_all(hit, direction) const, with a third parameter for the medium if scatter has one
 #include "messages/renderer.hpp"
 
 struct Wrong {

@@ -182,8 +182,9 @@ consteval bool explain_visitor() {
                   "has many (transport/visitor.hpp)");
     static_assert(
         !follows_all_ways<Visitor> || ScattersDeterministically<S, V>,
-        "nephroid::walk: the visitor follows all ways, but the scene lacks scatter_all(hit, direction) const; "
-        "if its scatter draws no numbers, say scatters_by_chance = false (transport/ways.hpp)");
+        "nephroid::walk: the visitor follows all ways, but the scene lacks scatter_all(hit, direction) const, "
+        "with a third parameter for the medium if scatter has one; if its scatter draws no numbers, say "
+        "scatters_by_chance = false (transport/ways.hpp)");
     static_assert(deposits || VisitsFlights<Visitor, V, F, N> || VisitsSurfaces<Visitor, H>,
                   "nephroid::walk: the visitor has neither flight, nor meet, nor deposit (transport/visitor.hpp)");
     return false;
