@@ -22,6 +22,10 @@ namespace nephroid {
 /// is no air between water and its glass (with Media, transport/media.hpp), and light leaves a glass before it falls
 /// onto the table.
 ///
+/// Of the primitives that a ray has passed where surfaces touch, eight are remembered. Where a ray passes more, as in
+/// the middle of a fan of triangles, each one there that faces as the last one passed counts as passed, also one of
+/// another object: light misses an object that touches a glass just there.
+///
 /// ```cpp
 /// if (t > t_min && t < nearest && !contacts.leave_out(triangle, t, dot(direction, normal)))
 ///     nearest = t;
