@@ -9,7 +9,9 @@
 #include "nephroid/emission/light/standard_lights.hpp"
 #include "nephroid/emission/separate_targets.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -104,8 +106,13 @@ public:
             break;
         case Lamp<T, F>::Kind::directional:
             for (const auto& target : targets_across(objects_.bounds, lamp.direction, groups_)) {
-                auto patch = smallest_beam_over(lamp.direction, objects_.points(scene_, target.objects));
-                if (pi<T> * square(target.bounds.radius) < area_of<T>(patch)) // of a ball, but not of its box
+                const std::vector<V> points = objects_.points(scene_, target.objects);
+                // Corners of a ball's box lie outside of the target's bounds. A patch over them may reach the next one.
+                const bool reaches_out = std::any_of(points.begin(), points.end(), [&](const V& p) {
+                    return length(p - target.bounds.centre) > target.bounds.radius;
+                });
+                auto patch = smallest_beam_over(lamp.direction, points);
+                if (reaches_out || pi<T> * square(target.bounds.radius) < area_of<T>(patch))
                     patch = beam_over(lamp.direction, target.bounds);
                 lights_.push_back(
                     DirectionalLight<V, F>({.direction = lamp.direction,

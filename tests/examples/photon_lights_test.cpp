@@ -8,10 +8,13 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace nephroid::examples::photon_lights_test {
@@ -84,6 +87,31 @@ struct Met {
     return lamps;
 }
 
+/// Numbers that are given.
+struct Given {
+    std::array<double, 2> numbers;
+    std::size_t used = 0;
+    template <class T>
+    [[nodiscard]] T next() {
+        return T(numbers.at(used++));
+    }
+};
+
+/// Whether the line along the beam through a point passes a light's patch, by where its photons start.
+[[nodiscard]] bool passes(const DirectionalLight<V, V>& light, const V& at) {
+    const auto start = [&](double u, double v) {
+        Given numbers{{u, v}};
+        return light.emit(numbers, Spread<double>{1, 1}).position;
+    };
+    const auto across = [&](const V& v) { return V(v - dot(v, light.direction()) * light.direction()); };
+    if (light.exact_domain().kinks[0] == Kinks::diagonals) { // a disk
+        const V centre = start(0.5, 0.5);
+        return length(across(at - centre)) <= length(start(1, 0.5) - centre);
+    }
+    const V corner = start(0, 0), u = start(1, 0) - corner, v = start(0, 1) - corner, away = at - corner;
+    return dot(away, u) >= 0 && dot(away, u) <= dot(u, u) && dot(away, v) >= 0 && dot(away, v) <= dot(v, v);
+}
+
 } // namespace
 
 // With one target for both, a share of 1/d² of the photons meets glass, of two balls d radii apart.
@@ -101,6 +129,46 @@ TEST_CASE("photon lights: two balls far apart cost no more photons than one") {
             CHECK(emitted > 0);
             CHECK(emitted < 200'000); // some of the light is refracted away from the floor
         }
+}
+
+// Targets are kept apart by their bounds, which the patches over the corners of balls' boxes reach out of.
+TEST_CASE("photon lights: no line of a beam passes the patches of two lights, and one to a ball passes its own") {
+    const HaltonSequence sequence(5);
+    int several = 0;
+    for (std::uint64_t n = 0; n < 200; ++n) {
+        CAPTURE(n);
+        Sampler draw(sequence, n);
+        std::vector<Scene<double>::Part> parts;
+        std::vector<std::pair<V, double>> places; // of balls
+        for (int i = 0; i < 6; ++i) {
+            const auto in = [&](double reach) { return reach * (2 * draw.next<double>() - 1); };
+            const V centre(in(5), in(5), in(5));
+            const double radius = 0.6 + in(0.4);
+            places.emplace_back(centre, radius);
+            parts.push_back({Sphere<double>(centre, radius), 0});
+        }
+        const Scene<double> scene(std::move(parts), {Material<V>::dielectric(1.5, false)});
+        Lamps<double, V> lamps;
+        const V direction =
+            normalize(V(draw.next<double>() - 0.5, draw.next<double>() - 0.5, draw.next<double>() - 0.5));
+        lamps.lamps.push_back({.kind = Kind::directional, .direction = direction, .intensity = V(1)});
+        const auto lights = photon_lights(lamps, scene);
+        several += lights.lights().size() > 1;
+        const auto count_at = [&](const V& at) {
+            int count = 0;
+            for (const auto& light : lights.lights())
+                count += passes(std::get<DirectionalLight<V, V>>(light), at);
+            return count;
+        };
+        for (int i = 0; i < 1000; ++i) {
+            const auto& [centre, radius] = places[std::size_t(i) % places.size()];
+            const V away =
+                normalize(V(draw.next<double>() - 0.5, draw.next<double>() - 0.5, draw.next<double>() - 0.5));
+            CHECK(count_at(centre + (radius * (1 - 1e-9)) * away) == 1);
+            CHECK(count_at(centre + (4 * draw.next<double>() * radius) * away) <= 1);
+        }
+    }
+    CHECK(several > 50);
 }
 
 // Balls in a row that shade one another: from the side their targets overlap. The photons that meet glass carry
