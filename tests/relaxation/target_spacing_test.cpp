@@ -180,6 +180,18 @@ struct CorrectedRoots {
 
 } // namespace
 
+// The smallest two candidates need 600 photons.
+TEST_CASE("target spacing: a map too small to compare pilots gets the pilot that serves most maps") {
+    SerialExecutor executor;
+    const PilotChoice small = choose_pilot(cloud_of(random_floor(550, 47)), executor);
+    CHECK(small.neighbours == 150);
+    CHECK_FALSE(small.judged);
+    CHECK_FALSE(small.stratified);
+    const PilotChoice larger = choose_pilot(cloud_of(random_floor(700, 47)), executor);
+    CHECK(larger.judged);
+    CHECK(larger.neighbours <= 150); // twice 75 at most
+}
+
 TEST_CASE("target spacing: distances are measured by the roots of the corrected pilot densities") {
     const auto photons = ripples(1500, 31);
     const auto cloud = cloud_of(photons);

@@ -5,6 +5,9 @@
 /// each candidate the density at some photons is estimated from their neighbours, without themselves. The best
 /// candidate finds the largest densities there, by the mean of their logarithms [leave-one-out likelihood: Habbema,
 /// Hermans and van den Broek 1974; Duin 1976].
+///
+/// Maps of fewer than 600 photons are too small for two candidates. They get the number that serves most maps, as do
+/// maps in which fewer than 128 of the photons asked lie away from the borders.
 #pragma once
 
 #include "nephroid/relaxation/photon_cloud.hpp"
@@ -42,7 +45,7 @@ struct PilotEvidence {
 
     /// Takes in one photon.
     /// @param distance2  of its neighbours, ascending, without itself
-    /// @param usable     how many of the candidates are compared
+    /// @param usable     how many of the candidates are compared: none, or at least two
     /// @param inside     whether photons lie around it on all sides: at a border each estimate is too low
     template <class T>
     void add(const std::vector<Neighbour<T>>& nearest, std::size_t usable, bool inside) {
@@ -93,6 +96,8 @@ template <class Cloud, class E>
     std::size_t usable = 0; // discs of an eighth of the map at most
     while (usable < PilotEvidence::candidates.size() && 8 * PilotEvidence::candidates[usable] <= slots)
         ++usable;
+    if (usable == 1) // nothing to compare it with
+        usable = 0;
     const std::size_t wanted = usable > 0 ? PilotEvidence::candidates[usable - 1] : 16;
     std::vector<PilotEvidence> by_leaf(cloud.tree().leaves().size());
     for_each_leaf<std::vector<Neighbour<T>>>(cloud.tree(), executor, [&](auto& nearest, std::uint32_t leaf) {
