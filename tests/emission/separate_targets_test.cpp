@@ -18,7 +18,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <stdexcept>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -93,6 +96,126 @@ TEST_CASE("separate targets: each direction from a lamp to an object leads to on
     CHECK(several >= 20);
 }
 
+// A lamp above stacked objects: the axes of the cones are the same, so that there is no way to turn from one to the
+// other.
+TEST_CASE_TEMPLATE("separate targets: objects that are stacked below a lamp are one target in float and double", T,
+                   float, double) {
+    using P = tests::Vec<T>;
+    int merged = 0;
+    for (int n = 0; n < 2000; ++n) {
+        CAPTURE(n);
+        // The second ball is all but as wide as the first as seen from the lamp, narrower and wider by turns.
+        const T first = T(0.05) + T(n) / T(3000), ratio = T(1) + T(n % 9 - 4) * std::numeric_limits<T>::epsilon();
+        const std::vector<TargetGroup<P>> groups{{{0}, {P{0, 0, -1}, first}},
+                                                 {{1}, {P{0, 0, -3}, T(3) * first * ratio}},
+                                                 {{2}, {P{0, 0, -7}, T(7) * first / ratio}}};
+        const auto targets = targets_from(P{0, 0, 0}, groups);
+        REQUIRE(targets.size() == 1);
+        const auto& bounds = targets[0].bounds;
+        CHECK(all_finite(bounds.centre));
+        CHECK(bounds.radius > 0);
+        merged += length(bounds.centre) > bounds.radius;
+        const auto cone = cone_towards(bounds, P{0, 0, 0});
+        for (const auto& group : groups) { // the cones' rims, which rounding may move by some units in the last place
+            const T half_angle = std::asin(group.bounds.radius / length(group.bounds.centre));
+            const P rim{std::sin(half_angle), 0, -std::cos(half_angle)};
+            CHECK(T(0.5) * length2(P(rim - cone.axis)) <= cone.height);
+        }
+    }
+    CHECK(merged == 2000); // cones, and not every direction
+}
+
+// Two cones of almost 0.49 pi each, on opposite sides of the lamp, and narrower ones.
+TEST_CASE_TEMPLATE("separate targets: wide cones that do not meet in theory do not meet after rounding", T, float,
+                   double) {
+    using P = tests::Vec<T>;
+    int apart = 0;
+    for (int n = 0; n < 4000; ++n) {
+        const T half_angle = T(0.3 + 0.19 * n / 4000) * pi<T>;
+        // Turned by twice that, and by a little more in units of rounding.
+        const T turn = T(2) * half_angle + T(n % 40) * T(50) * std::numeric_limits<T>::epsilon();
+        const P a{0, 0, 1}, b{std::sin(turn), 0, std::cos(turn)};
+        const auto targets = targets_from(P{0, 0, 0}, std::vector<TargetGroup<P>>{{{0}, {a, std::sin(half_angle)}},
+                                                                                  {{1}, {b, std::sin(half_angle)}}});
+        if (targets.size() == 1)
+            continue;
+        ++apart;
+        const auto half_angle_of = [](const Cone<P>& cone) { // exactly, of the cone as it is
+            return std::acos((long double)(1) - (long double)(cone.height));
+        };
+        const auto first = cone_towards(targets[0].bounds, P{0, 0, 0}),
+                   second = cone_towards(targets[1].bounds, P{0, 0, 0});
+        const auto angle = 2 * std::atan2((long double)(length(P(first.axis - second.axis))),
+                                          (long double)(length(P(first.axis + second.axis))));
+        CHECK(half_angle_of(first) + half_angle_of(second) < angle);
+    }
+    CHECK(apart > 1000);
+}
+
+TEST_CASE("separate targets: what is no lamp is refused by name and value") {
+    const Spheres balls{{{0, 0, 0}, 1}};
+    const auto groups = group_targets(balls);
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const auto message = [](const auto& call) {
+        try {
+            (void)call();
+        } catch (const std::invalid_argument& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    const auto says = [](const std::string& text, const char* part) { return text.find(part) != std::string::npos; };
+    CHECK(says(message([&] {
+                   return targets_from(V{none, 0, 5}, groups);
+               }),
+               "targets_from: the lamp is at (nan, 0, 5)"));
+    CHECK(says(message([&] { return targets_from(V{0, 0, 5}, groups, 1.5); }), "cos_outer is 1.5"));
+    CHECK(says(message([&] { return targets_from(V{0, 0, 5}, groups, none); }), "cos_outer is nan"));
+    CHECK(says(message([&] { return targets_from_area(balls, {{0, 0, 5}, -0.5}, groups); }), "with radius -0.5"));
+    CHECK(says(message([&] { return targets_from_area(balls, {{0, 0, none}, 1}, groups); }), "at (0, 0, nan)"));
+    CHECK(says(message([&] { return targets_across(balls, V{0, 0, -2}, groups); }), "direction is (0, 0, -2)"));
+    CHECK(says(message([&] { return targets_across(balls, V{0, none, 0}, groups); }), "direction is (0, nan, 0)"));
+    CHECK(targets_from(V{0, 0, 5}, groups, 1.0).size() == 1);
+    CHECK(targets_from_area(balls, {{0, 0, 5}, 0}, groups).size() == 1);
+}
+
+TEST_CASE(
+    "separate targets: each direction from a point of an area lamp to an object leads to one target, none to two") {
+    int several = 0;
+    for (std::uint64_t scene = 0; scene < 60; ++scene) {
+        CAPTURE(scene);
+        const Spheres balls = some_balls(scene);
+        const RandomSequence random(37);
+        const BoundingSphere<V> lamp{3.0 * some_direction(5'000'000 + scene), 0.4 * random.sample<double>(scene, 0)};
+        const auto targets = targets_from_area(balls, lamp, group_targets(balls));
+        several += targets.size() > 1;
+        std::vector<std::size_t> target_of(balls.size());
+        for (std::size_t t = 0; t < targets.size(); ++t)
+            for (const std::size_t ball : targets[t].objects)
+                target_of[ball] = t;
+        for (std::uint64_t i = 0; i < 4000; ++i) {
+            const std::size_t number = i % balls.size();
+            const BoundingSphere<V>& ball = balls[number];
+            const double depth = i % 3 == 0 ? 1 : std::cbrt(random.sample<double>(i, 1)); // a third on the surface
+            const V at = lamp.centre + depth * lamp.radius * some_direction(6'000'000 + i);
+            const bool is_aimed = i % 2 == 0 && length(V(ball.centre - at)) > ball.radius;
+            const V direction =
+                is_aimed ? normalize(V(ball.centre + ball.radius * some_direction(i) - at)) : some_direction(i);
+            int count = 0;
+            bool leads_to_own = false;
+            for (std::size_t t = 0; t < targets.size(); ++t)
+                if (is_in(cone_towards(targets[t].bounds, at), direction)) {
+                    ++count;
+                    leads_to_own = leads_to_own || t == target_of[number];
+                }
+            CHECK(count <= 1);
+            if (is_aimed)
+                CHECK(leads_to_own);
+        }
+    }
+    CHECK(several >= 20);
+}
+
 TEST_CASE("separate targets: patches across a beam light all objects and no line of the beam twice") {
     int several = 0;
     for (std::uint64_t scene = 0; scene < 60; ++scene) {
@@ -160,7 +283,8 @@ TEST_CASE("separate targets: lights of all kinds send the objects as much light 
             const auto all = light_at(std::optional<BoundingSphere<V>>());
             const double truth = flux_to(balls, all, 16 * photons);
             // A share p of random photons of equal flux arrives, which is off by sqrt(p / N) of the whole; falloffs and
-            // cosines add as much at most. Five times that, for both counts.
+            // cosines add as much at most. Five times that, for both counts: coarse, as the directions that lead to two
+            // targets are counted above. This is about what lights make of the targets.
             const double noise = 2 * std::sqrt(all.power() * (std::max)(truth, all.power() / photons) / photons);
             CHECK(std::abs(sum - truth) <= 5 * noise);
         };

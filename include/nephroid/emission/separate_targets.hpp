@@ -4,6 +4,8 @@
 #pragma once
 
 #include "nephroid/emission/target_groups.hpp"
+#include "nephroid/vector/error.hpp"
+#include "nephroid/vector/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -61,15 +63,24 @@ template <Vector3 V>
 /// count no direction twice. Groups that overlap as seen from the lamp become one target, whose bounds then contain the
 /// cones towards its objects, but not all of the objects.
 ///
-/// @param lamp       its position
-/// @param cos_outer  of a spot, or -1: a spot with a target wider than its own cone shines into all of that cone
+/// @param lamp       its position, finite
+/// @param cos_outer  of a spot, in [-1, 1], or -1: a spot with a target wider than its own cone shines into all of that
+///                   cone
+/// Throws std::invalid_argument if one of them is not as said.
 template <Vector3 V>
     requires std::floating_point<scalar_t<V>>
 [[nodiscard]] std::vector<TargetGroup<V>> targets_from(const std::type_identity_t<V>& lamp,
                                                        std::vector<TargetGroup<V>> groups,
                                                        scalar_t<V> cos_outer = scalar_t<V>(-1)) {
     using T = scalar_t<V>;
-    constexpr T margin = T(64) * std::numeric_limits<T>::epsilon(); // cones are rounded up
+    // `cone_towards` adds 12 epsilon to the square of the cosine, which near the widest angle below widens each of two
+    // cones by some 200, and rounding by some 50.
+    constexpr T margin = T(640) * std::numeric_limits<T>::epsilon();
+    if (!all_finite(lamp))
+        invalid_argument("nephroid::targets_from: the lamp is at " + detail::text_of(lamp) + "; positions are finite");
+    if (!(cos_outer >= T(-1) && cos_outer <= T(1)))
+        invalid_argument("nephroid::targets_from: cos_outer is " + detail::text_of(cos_outer) +
+                         "; pass the cosine of the spot's outer angle, or -1 for a lamp that is no spot");
     struct View {
         V axis;
         T distance, half_angle;
@@ -100,8 +111,9 @@ template <Vector3 V>
         // Between both axes, such that both cones touch the new one.
         const T turn = half_angle - margin - wide.half_angle;
         const V across = narrow.axis - dot(narrow.axis, wide.axis) * wide.axis;
+        const T away = length(across); // 0 of targets behind one another, whose turn may be more by rounding
         const V axis =
-            turn > T(0) ? V(std::cos(turn) * wide.axis + std::sin(turn) / length(across) * across) : wide.axis;
+            turn > T(0) && away > T(0) ? V(std::cos(turn) * wide.axis + std::sin(turn) / away * across) : wide.axis;
         return {lamp + distance * axis, distance * std::sin(half_angle)};
     };
     return detail::joined(std::move(groups), overlap, bounds);
@@ -109,15 +121,19 @@ template <Vector3 V>
 
 /// The targets of an area light, see `targets_from`: no direction from any of its points leads to two of them.
 ///
-/// @param lamp  a sphere around the light
+/// @param lamp  a sphere around the light, finite, radius >= 0; otherwise std::invalid_argument
 template <Vector3 V>
     requires std::floating_point<scalar_t<V>>
 [[nodiscard]] std::vector<TargetGroup<V>> targets_from_area(const std::vector<BoundingSphere<V>>& objects,
                                                             const BoundingSphere<V>& lamp,
                                                             std::vector<TargetGroup<V>> groups) {
     using T = scalar_t<V>;
-    constexpr T margin = T(64) * std::numeric_limits<T>::epsilon();
+    constexpr T margin = T(256) * std::numeric_limits<T>::epsilon(); // cones are rounded up, two by 25 epsilon each
     constexpr T widest = T(1); // radians: less than what a light aims at, see AreaEmission
+    if (!all_finite(lamp.centre) || !(lamp.radius >= T(0)) || !isfinite(lamp.radius))
+        invalid_argument("nephroid::targets_from_area: the lamp's sphere is at " + detail::text_of(lamp.centre) +
+                         " with radius " + detail::text_of(lamp.radius) +
+                         "; pass a finite sphere around the light, of radius >= 0");
     /// Of the cone that contains all directions from the lamp to the group.
     const auto half_angle = [&](const TargetGroup<V>& group) {
         const T distance = length(V(group.bounds.centre - lamp.centre));
@@ -142,13 +158,16 @@ template <Vector3 V>
 /// The targets of a beam: patches over them do not overlap, be they disks or the rectangles of `smallest_beam_over`, so
 /// that no light is counted twice.
 ///
-/// @param direction  of the beam, unit
+/// @param direction  of the beam, unit; otherwise std::invalid_argument
 template <Vector3 V>
     requires std::floating_point<scalar_t<V>>
 [[nodiscard]] std::vector<TargetGroup<V>> targets_across(const std::vector<BoundingSphere<V>>& objects,
                                                          const std::type_identity_t<V>& direction,
                                                          std::vector<TargetGroup<V>> groups) {
     using T = scalar_t<V>;
+    if (!(abs(length2(direction) - T(1)) <= T(1) / T(256)))
+        invalid_argument("nephroid::targets_across: the direction is " + detail::text_of(direction) +
+                         "; pass one of unit length");
     const auto overlap = [&](const TargetGroup<V>& a, const TargetGroup<V>& b) {
         const V apart = b.bounds.centre - a.bounds.centre;
         const V across = apart - dot(apart, direction) * direction;

@@ -6,7 +6,9 @@
 #include "nephroid/vector/error.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <ranges>
+#include <type_traits>
 
 namespace nephroid {
 
