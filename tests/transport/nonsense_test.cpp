@@ -132,6 +132,25 @@ struct InShares : Changed {
     }
 };
 
+/// The same with a share for each band. Flux has the type of vectors here.
+struct InBands : Changed {
+    V shares;
+    template <class Sampler>
+    [[nodiscard]] Scattering<V, double> scatter(const PlaneHit&, const V&, Sampler&) const {
+        return Scattering<V, double>::deposit();
+    }
+    [[nodiscard]] Ways<Scattering<V, double>> scatter_all(const PlaneHit& hit, const V&) const {
+        if (hit.surface != 0)
+            return Scattering<V, double>::deposit();
+        return {Scattering<V, double>::reflect(0.5 * shares), Scattering<V, double>::refract(0.5 * shares, 1.0)};
+    }
+};
+struct BandDeposits {
+    static constexpr bool follows_all_ways = true;
+    V flux{0, 0, 0};
+    void deposit(const Deposit<V, V, 2>& deposit, const WalkedPath<>&) { flux = flux + deposit.flux; }
+};
+
 /// Follows all ways, and adds up what arrives.
 struct Deposits {
     static constexpr bool follows_all_ways = true;
@@ -283,6 +302,27 @@ TEST_CASE("nonsense: ways whose shares add up to more than 1 make the photon inv
         const bool is_valid = shares > 0 && shares < 1.001;
         CHECK((account[Fate::invalid].photons == 1) == !is_valid);
         CHECK(deposits.flux == doctest::Approx(is_valid ? 0.5 * shares : 0)); // what is reflected; below is nothing
+    }
+}
+
+TEST_CASE("nonsense: ways that create light in one band make the photon invalid, whatever the others lose") {
+    const V arrived{1, 0, 2};
+    CHECK_FALSE(detail::has_band_above(V{0.5, 0, 2}, arrived, 1.001));
+    CHECK_FALSE(detail::has_band_above(V{1.0009, 0, 2.0009}, arrived, 1.001));
+    CHECK(detail::has_band_above(V{1.01, 0, 0}, arrived, 1.001)); // its power is less than that of what arrived
+    CHECK(detail::has_band_above(V{0, 0.01, 0}, arrived, 1.001));
+    CHECK(detail::has_band_above(V{0, 0, 2.01}, arrived, 1.001));
+    for (const double red : {1.0, 1.01}) {
+        CAPTURE(red);
+        const InBands scene{{}, {red, 0.25, 0.25}};
+        BandDeposits deposits;
+        tests::Constant numbers;
+        Statistics account;
+        const auto grey = collimated<double>({0, 0, 1}, {0.3, 0, -1});
+        const Photon<V, V, 2> photon{grey.position, grey.direction, V{1, 1, 1}, grey.differential};
+        walk(scene, photon, numbers, {}, account, deposits);
+        CHECK((account[Fate::invalid].photons == 1) == (red > 1.001));
+        CHECK(deposits.flux.x == doctest::Approx(red > 1.001 ? 0 : 0.5));
     }
 }
 

@@ -46,15 +46,18 @@ public:
                              Statistics& account) {
         const std::size_t count = std::size_t(ways.size());
         const auto arrived = steps.photon().flux;
+        using F = std::remove_const_t<decltype(arrived)>;
         double absorbed = steps.power(arrived);
+        F leaving = flux_traits<F>::zero();
         bool is_negative = false;
         for (std::size_t i = 0; i < count; ++i) {
-            const std::remove_const_t<decltype(arrived)> share = arrived * ways[i].weight;
+            const F share = arrived * ways[i].weight;
+            leaving = leaving + share;
             is_negative = is_negative || has_negative_band(share);
             absorbed -= steps.power(share);
         }
-        constexpr double most_created = 1e-3; // more than that is no rounding: the shares add up to more than 1
-        if (is_negative || !isfinite(absorbed) || absorbed < -most_created * steps.power(arrived))
+        constexpr double most = 1.001; // more than that is no rounding: the shares add up to more than 1
+        if (is_negative || !isfinite(absorbed) || has_band_above(leaving, arrived, most))
             return steps.end(Fate::invalid);
         account.lose(Fate::absorbed, absorbed);
         account.branches += count - 1;

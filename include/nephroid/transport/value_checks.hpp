@@ -27,6 +27,21 @@ template <Flux F>
     }
 }
 
+/// Whether a flux is more than `most` times another that has no negative bands; for a vector, in one of its bands.
+template <Flux F>
+[[nodiscard]] bool has_band_above(const F& flux, const F& other, double most) {
+    const auto is_above = [most](auto a, auto b) { return double(a) > most * double(b); };
+    if constexpr (Scalar<F>) {
+        return is_above(flux, other);
+    } else if constexpr (Vector3<F>) {
+        using t = vector_traits<F>;
+        return is_above(t::x(flux), t::x(other)) || is_above(t::y(flux), t::y(other)) ||
+               is_above(t::z(flux), t::z(other));
+    } else {
+        return is_above(flux_traits<F>::power(flux), flux_traits<F>::power(other));
+    }
+}
+
 /// Whether a refraction has a ratio of indices that is positive and finite. Other events need none.
 template <Scalar T, class Scattering>
 [[nodiscard]] bool has_valid_index([[maybe_unused]] const Scattering& scattering) {

@@ -63,8 +63,9 @@ template <class S, class H, class V, class Medium>
 /// Optional: `scene.scatter_all(hit, direction)` returns all ways that light takes at a surface, as `Ways` or any type
 /// with size() and [i]. An optional third parameter gets the `medium` that the photon arrives through; it has to be
 /// there if `scatter` takes the medium. A way is what `scatter` returns, except that its weight is the share of the
-/// light that goes this way, not divided by a probability. No ways mean absorption. Shares that are negative or add up
-/// to more than 1.001 make the photon invalid. If an Event::deposit is one of several ways, its weight is deposited.
+/// light that goes this way, not divided by a probability. No ways mean absorption. Shares of several ways that are
+/// negative or add up to more than 1.001 make the photon invalid, in each band of a flux that is a vector, else of its
+/// power. If an Event::deposit is one of several ways, its weight is deposited.
 /// The result must not depend on chance, because methods that compare neighbouring photons rely on it.
 ///
 /// ```cpp
