@@ -48,6 +48,16 @@ struct VaryingVector {
     [[nodiscard]] VaryingVector scaled(double factor, double factor_d_u, double factor_d_v) const {
         return {factor * value, factor_d_u * value + factor * d_u, factor_d_v * value + factor * d_v};
     }
+    /// Of length 1; the vector must not be 0.
+    [[nodiscard]] VaryingVector normalized() const {
+        const double length = glm::length(value), square = length * length;
+        return scaled(1 / length, -glm::dot(value, d_u) / (length * square), -glm::dot(value, d_v) / (length * square));
+    }
+    /// Without its part along a vector of length 1.
+    [[nodiscard]] VaryingVector perpendicular_to(const VaryingVector& unit) const {
+        return *this + unit.scaled(-glm::dot(value, unit.value), -glm::dot(d_u, unit.value) - glm::dot(value, unit.d_u),
+                                   -glm::dot(d_v, unit.value) - glm::dot(value, unit.d_v));
+    }
     [[nodiscard]] VaryingVector cross(const VaryingVector& b) const {
         return {glm::cross(value, b.value), glm::cross(d_u, b.value) + glm::cross(value, b.d_u),
                 glm::cross(d_v, b.value) + glm::cross(value, b.d_v)};
@@ -62,7 +72,9 @@ struct VaryingVector {
 /// Gives a hit the normal of a normal map, and its curvature, that of the map as well as of the surface. Where the map
 /// turns the normal to the back of the surface, and where the mesh has no tangents, the hit stays as it is.
 ///
-/// The map's (x, y, z) stands for x T + y B + z N with the tangent T, B = ±N × T and the vertex normal N.
+/// The map's (x, y, z) stands for x T + y B + z N with the interpolated vertex normal N, the tangent T perpendicular to
+/// it, and B = ±N × T, each of length 1. Where N is on the back of the triangle, -N takes its place, but not in B: the
+/// sign belongs to the file's normal, and B is a direction in the image.
 /// Source: glTF 2.0, sections 3.7.2.1 and 3.9.3; the derivatives by the product rule.
 template <class T>
 void bend_normal(const TriangleMesh<T>& shape, std::size_t triangle, const MaterialTextures& textures, Hit<T>& hit) {
@@ -79,15 +91,22 @@ void bend_normal(const TriangleMesh<T>& shape, std::size_t triangle, const Mater
     const double u(barycentric[0]), v(barycentric[1]);
 
     const glm::dvec3 geometric(hit.geometric_normal);
-    VaryingVector n{geometric, glm::dvec3(0), glm::dvec3(0)};
+    VaryingVector n{geometric, glm::dvec3(0), glm::dvec3(0)}; // as the file has it
+    double front = 1;                                         // times n: on the triangle's front
     if (!mesh.normals.empty()) {
         const glm::dvec3 n0(mesh.normals[vertices[0]]), n1(mesh.normals[vertices[1]]), n2(mesh.normals[vertices[2]]);
         const VaryingVector between = VaryingVector::between(n0, n1, n2, u, v);
-        const double side = glm::dot(between.value, geometric), sign = side < 0 ? -1 : 1;
-        if (n0 != glm::dvec3(0) && n1 != glm::dvec3(0) && n2 != glm::dvec3(0) && side != 0)
-            n = between.scaled(sign, 0, 0);
+        const double side = glm::dot(between.value, geometric);
+        if (n0 != glm::dvec3(0) && n1 != glm::dvec3(0) && n2 != glm::dvec3(0) && side != 0) {
+            n = between.normalized();
+            front = side < 0 ? -1 : 1;
+        }
     }
-    const VaryingVector x = VaryingVector::between(glm::dvec3(t0), glm::dvec3(t1), glm::dvec3(t2), u, v);
+    const VaryingVector t = VaryingVector::between(glm::dvec3(t0), glm::dvec3(t1), glm::dvec3(t2), u, v);
+    const VaryingVector across = t.perpendicular_to(n);
+    if (!(glm::length(across.value) > 1e-3)) // the vertices' directions, each of length 1, contradict one another
+        return;
+    const VaryingVector x = across.normalized();
     const VaryingVector y = n.cross(x).scaled(t0.w + t1.w + t2.w < 0 ? -1 : 1, 0, 0);
 
     const TextureTriangle image(shape, triangle, reference.set);
@@ -98,7 +117,8 @@ void bend_normal(const TriangleMesh<T>& shape, std::size_t triangle, const Mater
                            2 * scale * (texel.d_u[band] * e1.x + texel.d_v[band] * e1.y),
                            2 * scale * (texel.d_u[band] * e2.x + texel.d_v[band] * e2.y));
     };
-    const VaryingVector bent = times(x, 0, textures.normal_scale) + times(y, 1, textures.normal_scale) + times(n, 2, 1);
+    const VaryingVector bent =
+        times(x, 0, textures.normal_scale) + times(y, 1, textures.normal_scale) + times(n, 2, front);
     const double length = glm::length(bent.value);
     if (!(glm::dot(bent.value, geometric) > 1e-3 * length))
         return;

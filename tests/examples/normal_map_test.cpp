@@ -94,6 +94,88 @@ TEST_CASE("normal map: computed tangents are those of the file's, where these be
     }
 }
 
+// Exporters that turn the normals inside out keep the tangents' sign in step, so that B is still the image's up.
+TEST_CASE("normal map: normals against the winding leave the image's directions as they are") {
+    const std::string png = png_bytes(1, 1, {{200, 230, 255, 255}});
+    const auto normal = [&](float sign, const std::string& node) {
+        PaintedSquare square(mirror(), png);
+        const std::size_t down = square.file.add_vectors(std::vector<glm::vec3>(4, glm::vec3(0, -1, 0)));
+        std::string attributes = R"("POSITION":0,"TEXCOORD_0":2,"NORMAL":)" + std::to_string(down);
+        if (sign != 0) {
+            const std::vector<glm::vec4> tangents(4, glm::vec4(1, 0, 0, sign));
+            const std::size_t view = square.file.add_view(GltfFile::bytes_of(tangents));
+            attributes += R"(,"TANGENT":)" + std::to_string(square.file.add_accessor(view, 5126, 4, "VEC4"));
+        }
+        square.show(attributes);
+        square.file.nodes = {R"({"mesh":0)" + node + "}"};
+        const auto scene = square.scene();
+        return hit_below(scene, 0.3, -0.2).shading_normal;
+    };
+    const double a = component(200), b = component(230);
+    const auto expected = [](double x, double y, double z) { return glm::normalize(glm::dvec3(x, y, z)); };
+    CHECK(glm::length(normal(-1, "") - expected(a, 1, -b)) < 1e-6); // -1 times (-y) × x is -z, the image's up
+    CHECK(glm::length(normal(1, "") - expected(a, 1, b)) < 1e-6);
+    CHECK(glm::length(normal(0, "") - expected(a, 1, -b)) < 1e-6); // computed
+    CHECK(glm::length(normal(-1, R"(,"scale":[-1,1,1])") - expected(-a, 1, -b)) < 1e-6);
+    CHECK(glm::length(normal(0, R"(,"scale":[-1,1,1])") - expected(-a, 1, -b)) < 1e-6);
+}
+
+// Between normals that spread, the interpolated one is shorter: 0.8 in the middle here. The tilt is the map's all the
+// same. The tangent leans out of the surface by the same angle, and is made perpendicular.
+TEST_CASE("normal map: the tilt does not depend on the length of interpolated normals and tangents") {
+    PaintedSquare square(mirror(), png_bytes(1, 1, {{200, 230, 255, 255}}));
+    std::vector<glm::vec3> spread;
+    for (const glm::vec3& p : horizontal_square(1).positions)
+        spread.emplace_back(0, 0.8f, 0.6f * p.z);
+    const std::vector<glm::vec4> tangents(4, glm::vec4(0.8f, 0.6f, 0, 1));
+    const std::size_t normals = square.file.add_vectors(spread);
+    const std::size_t view = square.file.add_view(GltfFile::bytes_of(tangents));
+    square.show(R"("POSITION":0,"TEXCOORD_0":2,"NORMAL":)" + std::to_string(normals) + R"(,"TANGENT":)" +
+                std::to_string(square.file.add_accessor(view, 5126, 4, "VEC4")));
+    const auto scene = square.scene();
+    const double a = component(200), b = component(230);
+    for (const double z : {0.0, 0.25, -0.7}) {
+        const glm::dvec3 n = glm::normalize(glm::dvec3(0, 0.8, 0.6 * z)), t(0.8, 0.6, 0);
+        const glm::dvec3 x = glm::normalize(t - glm::dot(t, n) * n), y = glm::cross(n, x);
+        const auto hit = hit_below(scene, 0.3, z);
+        CHECK(glm::length(hit.shading_normal - glm::normalize(a * x + b * y + n)) < 1e-6); // floats in the file
+    }
+}
+
+// Models that are symmetric often have one half of an image on both halves, which meet in common vertices.
+TEST_CASE("normal map: where an image meets its mirror image, both sides have the map up to the seam") {
+    const std::string png = png_bytes(1, 1, {{200, 230, 255, 255}});
+    PaintedSquare square(mirror(), png);
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec2> uv;
+    for (const float z : {-1.0f, 1.0f})
+        for (const float x : {-1.0f, 0.0f, 1.0f}) {
+            positions.emplace_back(x, 0, z);
+            uv.emplace_back(std::abs(x), (z + 1) / 2);
+        }
+    const std::string position = std::to_string(square.file.add_vectors(positions));
+    const std::string normal = std::to_string(square.file.add_vectors(std::vector<glm::vec3>(6, glm::vec3(0, 1, 0))));
+    const std::string coordinate =
+        std::to_string(square.file.add_accessor(square.file.add_view(GltfFile::bytes_of(uv)), 5126, 6, "VEC2"));
+    const std::string indices =
+        std::to_string(square.file.add_indices(std::vector<std::uint8_t>{0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5}));
+    for (const std::string& normals : {R"(,"NORMAL":)" + normal, std::string()}) {
+        square.file.meshes = {R"({"primitives":[{"attributes":{"POSITION":)" + position + R"(,"TEXCOORD_0":)" +
+                              coordinate + normals + R"(},"indices":)" + indices + R"(,"material":0}]})"};
+        const auto description = parse(square.file);
+        CHECK(description.warnings.empty());
+        REQUIRE(description.meshes.size() == 1);
+        CHECK(description.meshes[0].positions.size() == 8); // the two vertices at the seam twice
+        const auto scene = square.scene();
+        const double a = component(200), b = component(230);
+        for (const double x : {0.01, 0.5, 0.9})
+            for (const double side : {-1.0, 1.0}) {
+                const auto hit = hit_below(scene, side * x, 0.3);
+                CHECK(glm::length(hit.shading_normal - glm::normalize(glm::dvec3(side * a, 1, -b))) < 1e-6);
+            }
+    }
+}
+
 TEST_CASE("normal map: without coordinates, tangents or a steep enough map the surface stays as it is") {
     const auto check_flat = [](const PaintedSquare& square) {
         const auto scene = square.scene();
@@ -108,6 +190,7 @@ TEST_CASE("normal map: without coordinates, tangents or a steep enough map the s
         degenerate.file.add_accessor(degenerate.file.add_view(GltfFile::bytes_of(uv)), 5126, 4, "VEC2");
     degenerate.show(R"("POSITION":0,"NORMAL":1,"TEXCOORD_0":)" + std::to_string(same));
     check_flat(degenerate);
+    CHECK(warns(parse(degenerate.file), "has 4 vertices without a tangent"));
     check_flat(PaintedSquare(mirror(), png_bytes(1, 1, {{200, 128, 0, 255}}))); // z = -1: the map looks backwards
 }
 

@@ -7,8 +7,13 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 namespace nephroid::examples::gltf {
 namespace {
@@ -37,13 +42,26 @@ void read_tangents(MeshDescription& mesh, const tinygltf::Model& model, int acce
     }
 }
 
-/// The mean direction in which the first coordinate grows, over the triangles around each vertex. Where the image is
-/// mirrored on some of these triangles, the sign is that of most of them.
+/// Directions of length 1 summed up at a vertex.
+struct DirectionSum {
+    glm::dvec3 sum{0};
+    std::size_t count = 0;
+};
+
+/// The mean direction in which the first coordinate grows, over the triangles around each vertex. A vertex between
+/// triangles with the image and triangles with its mirror image becomes two, because their directions may cancel.
 void compute_tangents(MeshDescription& mesh, const TextureReference& map, Budget& budget) {
-    budget.charge(mesh.positions.size(), sizeof(glm::vec4) + sizeof(glm::dvec4));
-    const auto& coordinates = mesh.coordinates[map.set];
-    std::vector<glm::dvec4> sums(mesh.positions.size(), glm::dvec4(0));
-    for (const auto& [a, b, c] : mesh.triangles) {
+    using Sums = std::array<DirectionSum, 2>; // of the positive sign, and of the negative one
+    constexpr std::size_t most_bytes =
+        sizeof(Sums) + sizeof(std::uint32_t) + 2 * (2 * sizeof(glm::vec3) + 2 * sizeof(glm::vec2) + sizeof(glm::vec4));
+    budget.charge(mesh.positions.size(), most_bytes);
+    budget.charge(mesh.triangles.size(), 3 * sizeof(signed char));
+    const std::size_t count = mesh.positions.size();
+    std::vector<Sums> sums(count);
+    std::vector<std::array<signed char, 3>> signs(mesh.triangles.size()); // of the corners; 0: no direction
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        const auto [a, b, c] = mesh.triangles[i];
+        const auto& coordinates = mesh.coordinates[map.set];
         const glm::dvec3 p(mesh.positions[a]), e1 = glm::dvec3(mesh.positions[b]) - p,
                                                e2 = glm::dvec3(mesh.positions[c]) - p;
         const auto change = [&](std::uint32_t from, std::uint32_t to) {
@@ -51,21 +69,66 @@ void compute_tangents(MeshDescription& mesh, const TextureReference& map, Budget
         };
         const glm::dvec2 d1 = change(a, b), d2 = change(a, c);
         const double area = d1.x * d2.y - d1.y * d2.x, sign = area < 0 ? -1 : 1;
-        const glm::dvec3 along = sign * (d2.y * e1 - d1.y * e2);
+        const glm::dvec3 along = sign * (d2.y * e1 - d1.y * e2), face = glm::cross(e1, e2);
         const double length = glm::length(along);
-        if (area != 0 && length > 0)
-            for (const std::uint32_t corner : {a, b, c})
-                sums[corner] += glm::dvec4(along / length, -sign); // the image's second coordinate grows downwards
+        if (area == 0 || !(length > 0))
+            continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::uint32_t corner = mesh.triangles[i][k];
+            // The image's second coordinate grows downwards. The sign belongs to the normal of the vertex.
+            const bool faces_back = !mesh.normals.empty() && glm::dot(glm::dvec3(mesh.normals[corner]), face) < 0;
+            const bool is_negative = (area > 0) != faces_back;
+            signs[i][k] = is_negative ? -1 : 1;
+            sums[corner][is_negative].sum += along / length;
+            ++sums[corner][is_negative].count;
+        }
     }
-    mesh.tangents.assign(sums.size(), glm::vec4(0));
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        glm::dvec3 along(sums[i]);
+
+    mesh.tangents.assign(count, glm::vec4(0));
+    const auto tangent = [&](std::size_t vertex, const DirectionSum& direction, float sign) {
+        glm::dvec3 along = direction.sum;
         if (!mesh.normals.empty())
-            along -= glm::dot(along, glm::dvec3(mesh.normals[i])) * glm::dvec3(mesh.normals[i]);
-        const double length = glm::length(along);
-        if (length > 0)
-            mesh.tangents[i] = glm::vec4(along / length, sums[i].w < 0 ? -1 : 1);
+            along -= glm::dot(along, glm::dvec3(mesh.normals[vertex])) * glm::dvec3(mesh.normals[vertex]);
+        const double length = glm::length(along); // floats of length 1 that cancel leave their rounding
+        return length > 1e-6 * double(direction.count) ? glm::vec4(along / length, sign) : glm::vec4(0);
+    };
+    std::vector<std::uint32_t> negative(count); // the vertex for the triangles with the negative sign
+    for (std::size_t i = 0; i < count; ++i) {
+        negative[i] = static_cast<std::uint32_t>(i);
+        const auto& [plus, minus] = sums[i];
+        mesh.tangents[i] = plus.count > 0 ? tangent(i, plus, 1) : tangent(i, minus, -1);
+        if (plus.count == 0 || minus.count == 0)
+            continue;
+        negative[i] = static_cast<std::uint32_t>(mesh.positions.size());
+        mesh.tangents.push_back(tangent(i, minus, -1));
+        const auto repeat = [i](auto& of_vertices) {
+            if (!of_vertices.empty()) {
+                const auto value = of_vertices[i];
+                of_vertices.push_back(value);
+            }
+        };
+        repeat(mesh.positions);
+        repeat(mesh.normals);
+        for (auto& set : mesh.coordinates)
+            repeat(set);
     }
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+            if (signs[i][k] < 0)
+                mesh.triangles[i][k] = negative[mesh.triangles[i][k]];
+}
+
+/// Says how many vertices of triangles have no tangent, because these triangles do without the map.
+void warn_of_unknown_tangents(const MeshDescription& mesh, std::string_view owner, Warnings& warnings) {
+    std::vector<bool> is_unknown(mesh.positions.size());
+    for (const auto& triangle : mesh.triangles)
+        for (const std::uint32_t corner : triangle)
+            is_unknown[corner] = mesh.tangents[corner].w == 0;
+    const auto count = std::count(is_unknown.begin(), is_unknown.end(), true);
+    if (count > 0)
+        warnings.add(std::string(owner) + " has " + std::to_string(count) +
+                     " vertices without a tangent, whose triangles have no normal map: their texture coordinates are "
+                     "all the same or contradict one another, or the file's TANGENT is 0");
 }
 } // namespace
 
@@ -97,6 +160,7 @@ void read_texture_coordinates(MeshDescription& mesh, const tinygltf::Model& mode
         read_tangents(mesh, model, tangent->second, to_world, owner, budget);
     else
         compute_tangents(mesh, *material.normal_texture, budget);
+    warn_of_unknown_tangents(mesh, owner, warnings);
 }
 
 } // namespace nephroid::examples::gltf

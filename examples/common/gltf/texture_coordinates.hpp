@@ -13,7 +13,7 @@
 namespace nephroid::examples::gltf {
 
 /// Reads the texture coordinates that a material uses. If it has a normal map, also the tangents of the file, or else
-/// computes them from the coordinates.
+/// computes them from the coordinates; a vertex where the image meets its mirror image then becomes two.
 ///
 /// @param mesh   with its positions, triangles and normals
 /// @param owner  such as `mesh 3 ("sphere")`, for messages
