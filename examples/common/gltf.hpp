@@ -133,6 +133,7 @@ struct UnreadableGltf : std::runtime_error {
 /// precision, because a caustic needs all seven digits of a float.
 /// Textures of base colour, transmission and normals are read from PNG and JPEG, with KHR_texture_transform.
 /// Left out with a warning: points and lines, other textures, vertex colours, animation, skins and morph targets.
+/// An image takes 24 bytes a pixel while it is decoded; one beside the scene's file counts as part of that.
 /// Triangles without area are dropped; normals of length zero are replaced by those of the triangles around.
 ///
 /// Throws UnreadableGltf, one line with the file, what is wrong and where, for anything that is not such a file: also

@@ -61,7 +61,7 @@ TEST_CASE("glTF: what is no file, or no glTF, is refused in one line that names 
     check_problem(problem_of(old), "version 1");
 }
 
-TEST_CASE("glTF: only the images that materials use are opened; animations are not read") {
+TEST_CASE("glTF: only the images that materials use are opened, and animations are not read") {
     GltfFile file;
     file.materials = {R"({"name":"wood","pbrMetallicRoughness":{"metallicRoughnessTexture":{"index":0}}})"};
     file.more = R"(,"images":[{"uri":"missing.png"},{"bufferView":99,"mimeType":"image/png"}],)"
@@ -227,6 +227,11 @@ TEST_CASE("glTF: accessors and buffer views beyond their bytes are refused") {
     check_problem(with_sparse("1", R"(,"componentType":5126)", ""), "sparse indices");
     check_problem(with_sparse("1", u16 + R"(,"byteOffset":-2)", ""), "byteOffset is negative");
     check_problem(with_sparse("1", u16, R"(,"byteOffset":40)"), "beyond");
+
+    GltfFile noted = file_with_primitive(four_points, R"(,"mode":5)");
+    noted.more = R"(,"asset2":{"byteOffset":-1})"; // an offset of something else
+    noted.nodes = {R"({"mesh":0,"extras":{"byteOffset":-1}})"};
+    CHECK(problem_of(noted).empty());
 
     GltfFile file = file_with(horizontal_square(1));
     file.accessors[1] = R"({"bufferView":1,"componentType":5126,"count":3,"type":"VEC3"})";

@@ -147,6 +147,10 @@ TEST_CASE("glTF: a mesh is closed where every edge has two sides, also if its ve
         noisy.positions.back().x += 1e-4f; // a gap that is none of rounding
         CHECK_FALSE(enclosure_of(noisy).is_closed);
     }
+    MeshDescription point = sphere; // of no size at all
+    for (glm::vec3& position : point.positions)
+        position = glm::vec3(0);
+    CHECK_FALSE(enclosure_of(point).is_closed);
     MeshDescription turned = sphere; // one triangle the wrong way round
     std::swap(turned.triangles[40][0], turned.triangles[40][1]);
     CHECK_FALSE(enclosure_of(turned).is_closed);

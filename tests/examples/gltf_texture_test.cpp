@@ -29,6 +29,45 @@ struct NearlyOne {
     }
 };
 
+/// A PNG of 8 bits for red, green, blue and opacity, whose data are zeros, packed 150 to 1. Its checksums are 0, which
+/// the decoder does not look at.
+///
+/// @param bytes  to unpack: height * (4 * width + 1) for a whole image
+std::string packed_png(std::uint32_t width, std::uint32_t height, std::size_t bytes) {
+    std::string packed = "\x78\x01";
+    unsigned bits = 0, count = 0;
+    const auto write = [&](const char* code) { // bit by bit, in the order of the stream
+        for (; *code != '\0'; ++code) {
+            bits |= (*code == '1' ? 1u : 0u) << count;
+            if (++count == 8) {
+                packed += static_cast<char>(static_cast<unsigned char>(bits));
+                bits = count = 0;
+            }
+        }
+    };
+    // RFC 1951, section 3.2.6: the last block, with fixed codes; the literal 0; then copies from one byte before.
+    write("110");
+    std::size_t written = 0;
+    for (; written == 0 || written % 258 != bytes % 258; ++written)
+        write("00110000");
+    for (; written < bytes; written += 258)
+        write("1100010100000");
+    write("0000000");
+    write("0000000"); // fills the last byte
+    const auto big_endian = [](std::size_t value) {
+        std::string text;
+        for (int shift = 24; shift >= 0; shift -= 8)
+            text += static_cast<char>(static_cast<unsigned char>(value >> shift & 0xFFu));
+        return text;
+    };
+    const auto chunk = [&](const char* type, const std::string& content) {
+        return big_endian(content.size()) + type + content + std::string(4, '\0');
+    };
+    return "\x89PNG\r\n\x1a\n" +
+           chunk("IHDR", big_endian(width) + big_endian(height) + std::string("\x08\x06\0\0\0", 5)) +
+           chunk("IDAT", packed + std::string(4, '\0')) + chunk("IEND", "");
+}
+
 /// The colour of a square with that image at a point: 'r' or 'g'.
 char color_at(const PaintedSquare& square, double x, double z) {
     const auto scene = square.scene();
@@ -134,9 +173,53 @@ TEST_CASE("glTF textures: what cannot be read is left out, with a warning that n
     check_problem(problem_of(broken.file), "texture 0, but the file has 0");
     // tinygltf would skip these images, and the next one would take their place.
     broken.file.more = R"(,"images":[{},{"uri":"a.png"}],"textures":[{"source":1}])";
-    check_problem(problem_of(broken.file), "an image is an empty object");
+    check_problem(problem_of(broken.file), "images cannot be told apart: 2 objects, 1 read");
+    broken.file.more = R"(,"images":[{"uri":"a.png"}],"images":[{"uri":"b.png"}],"textures":[{"source":0}])";
+    check_problem(problem_of(broken.file), "images cannot be told apart: 2 objects, 1 read");
+    broken.file.more = R"(,"images":[{"uri":"a.png"},5],"textures":[{"source":0}])";
+    check_problem(problem_of(broken.file), "images cannot be told apart: 1 objects, 2 read");
     broken.file.more = R"(,"images":[{"uri":"a.png"},null,{"uri":"b.png"}],"textures":[{"source":1}])";
     check_problem(problem_of(broken.file), "image 1 is not an object");
+}
+
+TEST_CASE("glTF textures: a Radiance picture is refused, as it would lose its range") {
+    const std::string header = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n";
+    const std::string hdr = header + std::string("\x80\x80\x80\x81", 4);
+    const auto description = parse(PaintedSquare(painted_matt(), hdr).file);
+    CHECK(warns(description, "is neither PNG nor JPEG"));
+    CHECK(description.textures.empty());
+    const auto* bytes = reinterpret_cast<const unsigned char*>(hdr.data());
+    CHECK_THROWS_WITH_AS(static_cast<void>(decode_image({bytes, hdr.size()})),
+                         doctest::Contains("neither PNG nor JPEG"), std::runtime_error);
+}
+
+// The image has 24 bytes a pixel, 404 MiB, to ask for while it is decoded. Its file of 0.45 MB allows 256 MiB + 109 MiB,
+// and 1 GiB more where 4 MiB are appended, which the decoder does not read.
+TEST_CASE("glTF textures: images may be large as far as their files are, inside the scene's or beside it") {
+    const std::uint32_t side = 4200;
+    const TemporaryFolder folder;
+    const auto with_image = [&folder](const std::string& image) {
+        PaintedSquare square(painted_matt(), png_bytes(1, 1, {{9, 9, 9, 255}}));
+        write_bytes(folder / "large.png", image);
+        square.file.more = R"(,"images":[{"uri":"large.png"}],"textures":[{"source":0}])";
+        write_bytes(folder / "scene.glb", square.file.glb());
+        return read_gltf(folder / "scene.glb");
+    };
+    const std::string small = packed_png(side, side, std::size_t{side} * (4 * side + 1));
+    const auto refused = with_image(small);
+    CHECK(warns(refused, "has 17640000 pixels in " + std::to_string(small.size()) + " bytes"));
+    CHECK(refused.textures.empty());
+    const auto read = with_image(small + std::string(std::size_t{4} << 20, '\0'));
+    CHECK(read.warnings.empty());
+    REQUIRE(read.textures.size() == 1);
+    CHECK(read.textures[0]->image.rgba.size() == std::size_t{4} * side * side);
+}
+
+TEST_CASE("glTF textures: an image whose data unpack to far more than its pixels is refused") {
+    const auto description = parse(PaintedSquare(painted_matt(), packed_png(1, 1, std::size_t{64} << 20)).file);
+    CHECK(warns(description, "unpacks to far more than its 1 x 1 pixels need"));
+    CHECK(description.textures.empty());
+    CHECK(parse(PaintedSquare(painted_matt(), packed_png(1, 1, 5)).file).warnings.empty());
 }
 
 TEST_CASE("glTF textures: those of roughness, emission and thickness are named as not read") {

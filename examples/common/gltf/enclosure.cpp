@@ -35,6 +35,8 @@ std::vector<std::uint32_t> welded_to_rounding(const std::vector<glm::vec3>& posi
     for (const glm::vec3& p : positions)
         largest = (std::max)({largest, double{std::abs(p.x)}, double{std::abs(p.y)}, double{std::abs(p.z)}});
     const double apart = 4 * double{std::numeric_limits<float>::epsilon()} * largest, cell = 4 * apart;
+    if (!(largest > 0)) // all lie at one position, and no cell has a size
+        return welded(positions);
     const auto cell_of = [cell](const glm::dvec3& p) {
         const auto along = [cell](double x) {
             return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell)));
@@ -46,14 +48,14 @@ std::vector<std::uint32_t> welded_to_rounding(const std::vector<glm::vec3>& posi
     for (std::uint32_t i = 0; i < positions.size(); ++i) {
         place[i] = i;
         const glm::dvec3 p(positions[i]);
-        for (unsigned side = 0; side < 8 && place[i] == i; ++side) { // the cells that its surroundings reach into
+        for (unsigned side = 0; side < 8; ++side) { // the cells that its surroundings reach into
             const auto sign = [side](unsigned axis) { return (side >> axis & 1u) != 0 ? 1.0 : -1.0; };
             const glm::dvec3 corner = p + apart * glm::dvec3(sign(0), sign(1), sign(2));
             const auto [begin, end] = first_of_cells.equal_range(cell_of(corner));
             for (auto found = begin; found != end; ++found)
                 if (const glm::dvec3 d = glm::abs(glm::dvec3(positions[found->second]) - p);
                     (std::max)({d.x, d.y, d.z}) <= apart)
-                    place[i] = found->second;
+                    place[i] = (std::min)(place[i], found->second); // whatever the order of the hash table
         }
         if (place[i] == i)
             first_of_cells.emplace(cell_of(p), i);

@@ -55,7 +55,7 @@ std::string decoded(std::string_view uri) {
     return path;
 }
 
-std::vector<unsigned char> bytes_of_file(const fs::path& folder, std::string_view uri) {
+ImageBytes bytes_of_file(const fs::path& folder, std::string_view uri) {
     const std::string name = decoded(uri);
     const fs::path path = folder / name;
     std::error_code error;
@@ -68,7 +68,9 @@ std::vector<unsigned char> bytes_of_file(const fs::path& folder, std::string_vie
     std::ifstream file(path, std::ios::binary);
     if (!file)
         fail({"'", one_line(name), "' cannot be read"});
-    return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    return {{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()},
+            std::string(uri),
+            fs::path(name).lexically_normal()};
 }
 
 std::string text_in(const tinygltf::Value& object, const char* name) {
@@ -89,7 +91,7 @@ ImageBytes bytes_of_image(const tinygltf::Model& model, std::size_t image, const
     if (uri.empty())
         fail({"its image has neither a buffer view nor a uri"});
     if (uri.rfind("data:", 0) != 0)
-        return {bytes_of_file(folder, uri), uri};
+        return bytes_of_file(folder, uri);
     const std::size_t comma = uri.find(";base64,");
     if (comma == std::string::npos)
         fail({"its data URI is not base64"});

@@ -13,7 +13,8 @@ namespace nephroid::examples::gltf {
 
 struct ImageBytes {
     std::vector<unsigned char> bytes;
-    std::string name; ///< of the image for messages: its URI or its type
+    std::string name;             ///< of the image for messages: its URI or its type
+    std::filesystem::path file{}; ///< beside the scene's; empty for an image inside it
 };
 
 /// tinygltf reads no image here, because it would read all: prepare_json has renamed the file's "images" to "extras",

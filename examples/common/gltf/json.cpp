@@ -91,7 +91,7 @@ private:
 
     void read_string(std::span<char> content) {
         const std::string_view word(content.data(), content.size());
-        at_offset_ = at_key_ && word == "byteOffset";
+        at_offset_ = at_key_ && word == "byteOffset" && (section_ == "bufferViews" || section_ == "accessors");
         if (at_key_ && open_ == "{")
             enter_section(content);
         else if (at_key_ && in_element_of("buffers")) {

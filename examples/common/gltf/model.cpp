@@ -237,8 +237,10 @@ tinygltf::Model load_model(std::span<const unsigned char> file, const std::files
         check_version(model.asset);
     if (!complete || !error.empty()) // tinygltf leaves out broken primitives and goes on
         fail({"broken glTF: ", error.empty() ? "tinygltf does not say why" : error});
-    if (survey.images != image_count(model)) // tinygltf skips them, which would make others of their indices
-        fail({"an image is an empty object; it needs a uri or a buffer view"});
+    if (survey.images != image_count(model)) // tinygltf skips empty ones, which would make others of their indices
+        fail({"the file's images cannot be told apart: ", std::to_string(survey.images), " objects, ",
+              std::to_string(image_count(model)),
+              " read; there must be one list \"images\", of objects that each have a uri or a buffer view"});
     return model;
 }
 

@@ -78,17 +78,24 @@ std::vector<std::string> Warnings::take() {
     return std::move(lines_);
 }
 
-Budget::Budget(std::size_t file_bytes) {
-    constexpr std::size_t base = std::size_t{256} << 20;
+Budget::Budget(std::size_t file_bytes) : left_(std::size_t{256} << 20) { grow(file_bytes); }
+
+void Budget::grow(std::size_t file_bytes) {
     constexpr std::size_t factor = 256;
     const std::size_t most = std::numeric_limits<std::size_t>::max();
-    left_ = file_bytes > (most - base) / factor ? most : base + factor * file_bytes;
+    left_ = file_bytes > (most - left_) / factor ? most : left_ + factor * file_bytes;
+}
+
+bool Budget::try_to_charge(std::size_t count, std::size_t bytes_each) {
+    if (bytes_each != 0 && count > left_ / bytes_each)
+        return false;
+    left_ -= count * bytes_each;
+    return true;
 }
 
 void Budget::charge(std::size_t count, std::size_t bytes_each) {
-    if (bytes_each != 0 && count > left_ / bytes_each)
+    if (!try_to_charge(count, bytes_each))
         fail({"the scene is out of all proportion to its file: it shows its meshes too often, or a count is wrong"});
-    left_ -= count * bytes_each;
 }
 
 } // namespace nephroid::examples::gltf

@@ -46,6 +46,15 @@ public:
     /// Takes `count` times `bytes_each` off, before that memory is asked for; fails when it is used up.
     void charge(std::size_t count, std::size_t bytes_each);
 
+    /// The same, but returns whether it is enough; if not, takes nothing.
+    [[nodiscard]] bool try_to_charge(std::size_t count, std::size_t bytes_each);
+
+    /// For another file that belongs to the scene: 256 times its size.
+    void grow(std::size_t file_bytes);
+
+    /// Gives back what was charged for memory that is free again.
+    void give_back(std::size_t bytes) { left_ += bytes; }
+
 private:
     std::size_t left_;
 };

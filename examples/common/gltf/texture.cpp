@@ -45,6 +45,31 @@ void apply_transform(TextureReference& reference, int& set, const tinygltf::Valu
     if (transform.Has("texCoord") && transform.Get("texCoord").IsInt())
         set = transform.Get("texCoord").GetNumberAsInt();
 }
+
+/// Charges what decoding an image takes, and at the end gives back all but what the image keeps.
+class DecodingMemory {
+public:
+    DecodingMemory(Budget& budget, std::size_t texels, std::size_t file_bytes)
+        : budget_(budget), working_(20 * texels + 3 * file_bytes) {
+        constexpr std::size_t each = 24, mebibyte = std::size_t{1} << 20;
+        if (!budget.try_to_charge(3 * file_bytes, 1))
+            fail({"its image has ", std::to_string(file_bytes / mebibyte), " MiB, ", too_much});
+        if (budget.try_to_charge(texels, each))
+            return;
+        budget.give_back(3 * file_bytes);
+        fail({"its image has ", std::to_string(texels), " pixels in ", std::to_string(file_bytes),
+              " bytes, and decoding them takes ", std::to_string(texels / (mebibyte / each)), " MiB, ", too_much});
+    }
+    ~DecodingMemory() { budget_.give_back(working_); }
+    DecodingMemory(const DecodingMemory&) = delete;
+    DecodingMemory& operator=(const DecodingMemory&) = delete;
+
+private:
+    static constexpr const char* too_much = "more than is left of 256 MiB and 256 times the scene's files; make it "
+                                            "smaller";
+    Budget& budget_;
+    std::size_t working_;
+};
 } // namespace
 
 std::optional<TextureReference> TextureReader::reference(int texture, int set, const tinygltf::ExtensionMap& extensions,
@@ -96,7 +121,10 @@ std::shared_ptr<const Texture> TextureReader::read(const tinygltf::Texture& text
     if (texels == 0)
         fail({"its image", image.name.empty() ? "" : " (" + image.name + ")",
               " is neither PNG nor JPEG, and other images are not read"});
-    budget_.charge(texels, 12); // while it is decoded there are copies of it
+    if (!image.file.empty() && image_files_.insert(image.file).second)
+        budget_.grow(image.bytes.size());
+    // While it is decoded there are copies of it; after that, four bytes a texel.
+    const DecodingMemory memory(budget_, texels, image.bytes.size());
     auto result = std::make_shared<Texture>();
     result->image = decode_image(image.bytes);
     if (texture.sampler >= 0)

@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -48,6 +49,7 @@ private:
     Warnings& warnings_;
     std::map<int, std::optional<std::size_t>> numbers_; ///< into `textures_`, by the file's index
     std::vector<std::shared_ptr<const Texture>> textures_;
+    std::set<std::filesystem::path> image_files_; ///< that the budget has grown by
 };
 
 } // namespace nephroid::examples::gltf

@@ -1,14 +1,42 @@
 // SPDX-License-Identifier: MIT
 #include "common/image/decode.hpp"
 
-#include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
+namespace {
+
+/// What one allocation of stb_image may ask for at most: zlib can make a thousand bytes of one, and stb_image unpacks
+/// them all, also those that no pixel needs.
+struct AllocationLimit {
+    std::size_t bytes = std::numeric_limits<std::size_t>::max();
+    bool was_exceeded = false;
+
+    [[nodiscard]] bool allows(std::size_t size) {
+        was_exceeded = was_exceeded || size > bytes;
+        return size <= bytes;
+    }
+};
+thread_local AllocationLimit allocation_limit;
+
+[[maybe_unused]] void* allocate_within_limit(std::size_t size) {
+    return allocation_limit.allows(size) ? std::malloc(size) : nullptr;
+}
+[[maybe_unused]] void* reallocate_within_limit(void* old, std::size_t size) {
+    return allocation_limit.allows(size) ? std::realloc(old, size) : nullptr;
+}
+
+} // namespace
+
+#define STBI_MALLOC(size) allocate_within_limit(size)
+#define STBI_REALLOC(old, size) reallocate_within_limit(old, size)
+#define STBI_FREE(old) std::free(old)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC // tinygltf may bring its own copy
 #define STBI_ONLY_PNG
@@ -45,15 +73,27 @@ namespace {
 
 std::size_t pixels_of_image(std::span<const unsigned char> file) {
     int width = 0, height = 0, channels = 0;
+    if (stbi_is_hdr_from_memory(file.data(), size_of(file)) != 0) // which is for light from all around
+        return 0;
     if (stbi_info_from_memory(file.data(), size_of(file), &width, &height, &channels) == 0)
         return 0;
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
 DecodedImage decode_image(std::span<const unsigned char> file) {
+    const std::size_t pixels = pixels_of_image(file);
     int width = 0, height = 0, channels = 0;
+    if (pixels == 0 || stbi_info_from_memory(file.data(), size_of(file), &width, &height, &channels) == 0)
+        throw std::runtime_error("neither PNG nor JPEG that can be read");
+    const std::string size = std::to_string(width) + " x " + std::to_string(height);
+    // 16 bytes a pixel: twice four channels of 16 bits, as buffers grow by doubling; twice the file, likewise; and
+    // 1 MiB for the decoder's tables and the borders of tiny images.
+    allocation_limit = {16 * pixels + 2 * file.size() + (std::size_t{1} << 20), false};
     const std::unique_ptr<stbi_uc, void (*)(void*)> samples(
         stbi_load_from_memory(file.data(), size_of(file), &width, &height, &channels, 4), stbi_image_free);
+    const bool is_too_large = std::exchange(allocation_limit, AllocationLimit()).was_exceeded;
+    if (!samples && is_too_large)
+        throw std::runtime_error("its data unpacks to far more than its " + size + " pixels need");
     if (!samples)
         throw std::runtime_error(std::string("neither PNG nor JPEG that can be read: ") + stbi_failure_reason());
     DecodedImage image{static_cast<std::size_t>(width), static_cast<std::size_t>(height), {}};

@@ -27,7 +27,9 @@ struct Decoded16 {
 /// Pixels of a PNG or JPEG in memory, from its header alone; 0 for other files.
 [[nodiscard]] std::size_t pixels_of_image(std::span<const unsigned char> file);
 
-/// Decodes a PNG or JPEG. Throws std::runtime_error with a short reason for other files.
+/// Decodes a PNG or JPEG. Uses at most 24 bytes a pixel, three times the file and a few MiB, also for a broken file.
+///
+/// Throws std::runtime_error with a short reason for other files.
 [[nodiscard]] DecodedImage decode_image(std::span<const unsigned char> file);
 
 /// Reads a PNG of 8 or 16 bits per channel. Throws std::runtime_error, one line with the path and the reason.
