@@ -47,8 +47,11 @@ template <Flux F>
     const auto number = [](float value) { return text("%g", double(value)); };
     const F color = color_from_rgb<F>(m.base_color);
 
-    if (m.emits())
+    if (m.emits()) {
+        if (m.color_texture || m.transmission_texture || m.normal_texture || m.coverage < 1)
+            warn("its opacity and textures are not used, as it emits");
         return Material<F>::emitter(color_from_rgb<F>(m.emission), m.double_sided);
+    }
     Material<F> material = Material<F>::diffuse(color);
     if (m.transmission > 0 && m.ior > 0) {
         if (m.roughness > 0)

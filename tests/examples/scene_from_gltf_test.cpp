@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <string>
@@ -52,6 +53,23 @@ SceneDescription description() {
 }
 
 } // namespace
+
+TEST_CASE("scene from gltf: a note says that emitters are shown without their opacity and textures") {
+    const auto warnings_with = [](const auto& change) {
+        SceneDescription d = description();
+        d.materials[4] = d.materials[0];
+        d.materials[3].name = "lamp";
+        change(d.materials[3]);
+        const auto result = scene_from<float>(d);
+        return std::count_if(result.warnings.begin(), result.warnings.end(), [](const std::string& line) {
+            return line == "material \"lamp\": its opacity and textures are not used, as it emits";
+        });
+    };
+    CHECK(warnings_with([](MaterialDescription&) {}) == 0);
+    CHECK(warnings_with([](MaterialDescription& m) { m.coverage = 0.5f; }) == 1);
+    CHECK(warnings_with([](MaterialDescription& m) { m.color_texture = TextureReference(); }) == 1);
+    CHECK(warnings_with([](MaterialDescription& m) { m.normal_texture = TextureReference(); }) == 1);
+}
 
 TEST_CASE_TEMPLATE("scene from gltf: materials become what they are nearest to", T, float, double) {
     const auto g = scene_from<T>(description());
