@@ -73,8 +73,8 @@ struct VaryingVector {
 /// turns the normal to the back of the surface, and where the mesh has no tangents, the hit stays as it is.
 ///
 /// The map's (x, y, z) stands for x T + y B + z N with the interpolated vertex normal N, the tangent T perpendicular to
-/// it, and B = ±N × T, each of length 1. Where N is on the back of the triangle, -N takes its place, but not in B: the
-/// sign belongs to the file's normal, and B is a direction in the image.
+/// it, and B = ±N × T, each of length 1. Where N is on the back of the triangle, -N takes its place, but not in B:
+/// the sign belongs to the file's normal, and B is a direction in the image.
 /// Source: glTF 2.0, sections 3.7.2.1 and 3.9.3; the derivatives by the product rule.
 template <class T>
 void bend_normal(const TriangleMesh<T>& shape, std::size_t triangle, const MaterialTextures& textures, Hit<T>& hit) {

@@ -193,8 +193,8 @@ TEST_CASE("glTF textures: a Radiance picture is refused, as it would lose its ra
                          doctest::Contains("neither PNG nor JPEG"), std::runtime_error);
 }
 
-// The image has 24 bytes a pixel, 404 MiB, to ask for while it is decoded. Its file of 0.45 MB allows 256 MiB + 109 MiB,
-// and 1 GiB more where 4 MiB are appended, which the decoder does not read.
+// The image has 24 bytes a pixel, 404 MiB, to ask for while it is decoded. Its file of 0.45 MB allows 256 MiB and
+// 109 MiB, and 1 GiB more where 4 MiB are appended, which the decoder does not read.
 TEST_CASE("glTF textures: images may be large as far as their files are, inside the scene's or beside it") {
     const std::uint32_t side = 4200;
     const TemporaryFolder folder;
