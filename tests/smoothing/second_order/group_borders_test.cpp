@@ -104,8 +104,8 @@ TEST_CASE("group borders: footprints of a small group are bounded on all of its 
             ++checked;
             if (std::hypot(u - 0.5, v - 0.45) > 0.02)
                 continue;
-            // In the middle both borders are as far: (ρ⁻⁴ + m⁻⁴)^(−1/4) is 0.84 m where the radius ρ is m or
-            // more, and m is found to a cell and a half.
+            // In the middle both borders are as far: (ρ⁻⁴ + m⁻⁴)^(−1/4) is 0.84 m where the radius ρ is
+            // m or more, and m is found to a cell and a half.
             const double half_width = 0.125 / u0;
             CHECK(std::sqrt(here->shape.xx) >= 0.84 * (half_width - 1.5 * unit_per_cell * step) - 1);
             ++in_the_middle;
