@@ -10,6 +10,7 @@
 #include "nephroid/emission/light_set.hpp"
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/vector/glm.hpp"
+#include "support/is_sanitized.hpp"
 #include "support/sphere_direction.hpp"
 #include "transport/tiny_scenes.hpp"
 
@@ -261,7 +262,7 @@ TEST_CASE("separate targets: patches across a beam light all objects and no line
 
 // The flux that rays from a lamp carry to the balls, by the lights with their targets and by one without.
 TEST_CASE("separate targets: lights of all kinds send the objects as much light as one light without a target") {
-    constexpr std::uint64_t photons = 40'000;
+    constexpr std::uint64_t photons = tests::is_sanitized ? 4'000 : 40'000;
     const RandomSequence random(31);
     const auto flux_to = [&](const Spheres& balls, const auto& light, std::uint64_t count) {
         double flux = 0;
