@@ -5,6 +5,9 @@
 #include "common/material.hpp"
 #include "common/shapes/mesh.hpp"
 
+#include "nephroid/vector/dual.hpp"
+#include "nephroid/vector/glm.hpp"
+
 #include <glm/geometric.hpp>
 
 #include <cstddef>
@@ -34,51 +37,17 @@ struct TextureTriangle {
     }
 };
 
-namespace detail {
-
-/// A vector, and its derivatives by two barycentric coordinates.
-struct VaryingVector {
-    glm::dvec3 value, d_u, d_v;
-
-    /// Interpolated between three vertices.
-    [[nodiscard]] static VaryingVector between(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double u,
-                                               double v) {
-        return {a + u * (b - a) + v * (c - a), b - a, c - a};
-    }
-    [[nodiscard]] VaryingVector scaled(double factor, double factor_d_u, double factor_d_v) const {
-        return {factor * value, factor_d_u * value + factor * d_u, factor_d_v * value + factor * d_v};
-    }
-    /// Of length 1; the vector must not be 0.
-    [[nodiscard]] VaryingVector normalized() const {
-        const double length = glm::length(value), square = length * length;
-        return scaled(1 / length, -glm::dot(value, d_u) / (length * square), -glm::dot(value, d_v) / (length * square));
-    }
-    /// Without its part along a vector of length 1.
-    [[nodiscard]] VaryingVector perpendicular_to(const VaryingVector& unit) const {
-        return *this + unit.scaled(-glm::dot(value, unit.value), -glm::dot(d_u, unit.value) - glm::dot(value, unit.d_u),
-                                   -glm::dot(d_v, unit.value) - glm::dot(value, unit.d_v));
-    }
-    [[nodiscard]] VaryingVector cross(const VaryingVector& b) const {
-        return {glm::cross(value, b.value), glm::cross(d_u, b.value) + glm::cross(value, b.d_u),
-                glm::cross(d_v, b.value) + glm::cross(value, b.d_v)};
-    }
-    friend VaryingVector operator+(const VaryingVector& a, const VaryingVector& b) {
-        return {a.value + b.value, a.d_u + b.d_u, a.d_v + b.d_v};
-    }
-};
-
-} // namespace detail
-
 /// Gives a hit the normal of a normal map, and its curvature, that of the map as well as of the surface. Where the map
 /// turns the normal to the back of the surface, and where the mesh has no tangents, the hit stays as it is.
 ///
 /// The map's (x, y, z) stands for x T + y B + z N with the interpolated vertex normal N, the tangent T perpendicular to
 /// it, and B = ±N × T, each of length 1. Where N is on the back of the triangle, -N takes its place, but not in B:
 /// the sign belongs to the file's normal, and B is a direction in the image.
-/// Source: glTF 2.0, sections 3.7.2.1 and 3.9.3; the derivatives by the product rule.
+/// Source: glTF 2.0, sections 3.7.2.1 and 3.9.3; the derivatives by dual numbers.
 template <class T>
 void bend_normal(const TriangleMesh<T>& shape, std::size_t triangle, const MaterialTextures& textures, Hit<T>& hit) {
-    using detail::VaryingVector;
+    using Varying = Dual<double, 2>; // with its derivatives by the barycentric coordinates
+    using VaryingVector = glm::vec<3, Varying>;
     const MeshData<T>& mesh = shape.data();
     const auto& [texture, reference] = textures.normal;
     if (mesh.tangents.empty() || mesh.coordinates[reference.set].empty())
@@ -88,52 +57,53 @@ void bend_normal(const TriangleMesh<T>& shape, std::size_t triangle, const Mater
     if (t0.w == 0 || t1.w == 0 || t2.w == 0)
         return;
     const auto barycentric = shape.barycentric(triangle, hit.position);
-    const double u(barycentric[0]), v(barycentric[1]);
+    const Varying u = Varying::parameter(double(barycentric[0]), 0), v = Varying::parameter(double(barycentric[1]), 1);
+    const auto between = [&](const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) -> VaryingVector {
+        return VaryingVector(a) + u * VaryingVector(b - a) + v * VaryingVector(c - a);
+    };
 
     const glm::dvec3 geometric(hit.geometric_normal);
-    VaryingVector n{geometric, glm::dvec3(0), glm::dvec3(0)}; // as the file has it
-    double front = 1;                                         // times n: on the triangle's front
+    VaryingVector n(geometric); // as the file has it
+    double front = 1;           // times n: on the triangle's front
     if (!mesh.normals.empty()) {
         const glm::dvec3 n0(mesh.normals[vertices[0]]), n1(mesh.normals[vertices[1]]), n2(mesh.normals[vertices[2]]);
-        const VaryingVector between = VaryingVector::between(n0, n1, n2, u, v);
-        const double side = glm::dot(between.value, geometric);
-        if (n0 != glm::dvec3(0) && n1 != glm::dvec3(0) && n2 != glm::dvec3(0) && side != 0) {
-            n = between.normalized();
-            front = side < 0 ? -1 : 1;
+        const VaryingVector sum = between(n0, n1, n2);
+        const Varying side = dot(sum, VaryingVector(geometric));
+        if (n0 != glm::dvec3(0) && n1 != glm::dvec3(0) && n2 != glm::dvec3(0) && side.value() != 0) {
+            n = normalize(sum);
+            front = side.value() < 0 ? -1 : 1;
         }
     }
-    const VaryingVector t = VaryingVector::between(glm::dvec3(t0), glm::dvec3(t1), glm::dvec3(t2), u, v);
-    const VaryingVector across = t.perpendicular_to(n);
-    if (!(glm::length(across.value) > 1e-3)) // the vertices' directions, each of length 1, contradict one another
+    const VaryingVector t = between(glm::dvec3(t0), glm::dvec3(t1), glm::dvec3(t2)), across = t - dot(t, n) * n;
+    if (!(length(across).value() > 1e-3)) // the vertices' directions, each of length 1, contradict one another
         return;
-    const VaryingVector x = across.normalized();
-    const VaryingVector y = n.cross(x).scaled(t0.w + t1.w + t2.w < 0 ? -1 : 1, 0, 0);
+    const double sign = t0.w + t1.w + t2.w < 0 ? -1 : 1;
+    const VaryingVector x = normalize(across), y = Varying(sign) * cross(n, x);
 
     const TextureTriangle image(shape, triangle, reference.set);
     const auto texel = texture->smooth_data(reference.transformed(image.at(shape, hit.position)));
     const glm::dvec2 e1 = reference.transformed_change(image.edge_1), e2 = reference.transformed_change(image.edge_2);
-    const auto times = [&](const VaryingVector& axis, int band, double scale) {
-        return axis.scaled(scale * (2 * texel.value[band] - 1),
-                           2 * scale * (texel.d_u[band] * e1.x + texel.d_v[band] * e1.y),
-                           2 * scale * (texel.d_u[band] * e2.x + texel.d_v[band] * e2.y));
+    const auto band = [&](int i) {
+        return Varying(2 * texel.value[i] - 1, {2 * (texel.d_u[i] * e1.x + texel.d_v[i] * e1.y),
+                                                2 * (texel.d_u[i] * e2.x + texel.d_v[i] * e2.y)});
     };
-    const VaryingVector bent =
-        times(x, 0, textures.normal_scale) + times(y, 1, textures.normal_scale) + times(n, 2, front);
-    const double length = glm::length(bent.value);
-    if (!(glm::dot(bent.value, geometric) > 1e-3 * length))
+    const Varying scale(textures.normal_scale);
+    const VaryingVector bent = scale * band(0) * x + scale * band(1) * y + Varying(front) * band(2) * n;
+    const VaryingVector unit = normalize(bent);
+    const auto part = [&](const auto& of) { return glm::dvec3(of(unit.x), of(unit.y), of(unit.z)); };
+    const glm::dvec3 normal = part([](const Varying& c) { return c.value(); });
+    if (!(glm::dot(normal, geometric) > 1e-3))
         return;
 
     const auto [p0, p1, p2] = shape.corners(triangle);
     const glm::dvec3 edge_1 = glm::dvec3(p1) - glm::dvec3(p0), edge_2 = glm::dvec3(p2) - glm::dvec3(p0);
-    const glm::dvec3 face = glm::cross(edge_1, edge_2), normal = bent.value / length;
+    const glm::dvec3 face = glm::cross(edge_1, edge_2);
     const double area2 = glm::dot(face, face);
-    const auto across_normal = [&](const glm::dvec3& d) {
-        return Vec3<T>((d - glm::dot(normal, d) * normal) / length);
-    };
     hit.shading_normal = Vec3<T>(normal);
     hit.curvature = InterpolatedCurvature<Vec3<T>>{Vec3<T>(glm::cross(edge_2, face) / area2),
-                                                   Vec3<T>(glm::cross(face, edge_1) / area2), across_normal(bent.d_u),
-                                                   across_normal(bent.d_v)};
+                                                   Vec3<T>(glm::cross(face, edge_1) / area2),
+                                                   Vec3<T>(part([](const Varying& c) { return c.derivative(0); })),
+                                                   Vec3<T>(part([](const Varying& c) { return c.derivative(1); }))};
 }
 
 } // namespace nephroid::examples

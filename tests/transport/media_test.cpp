@@ -179,16 +179,23 @@ TEST_CASE("media: glass in water bends light by the ratio of both and light leav
     CHECK(account.specular_events == 3);
 }
 
-// The water reaches down to 2.5, below the glass's top at 3: with the higher priority the glass begins at 3, and the
-// water's bottom is no surface; with the lower one it begins where the water ends.
+/// Water that reaches down to 2.5, below the top of a glass at 3.
+///
+/// @param priority  of the glass
+[[nodiscard]] Tank overlapping(std::int32_t priority) {
+    return {{{{{0, 0, 4}, up, Event::refract},
+              {{0, 0, 3}, up, Event::refract},
+              {{0, 0, 2.5}, down, Event::refract},
+              {{0, 0, 0}, up, Event::deposit}}},
+            {water, glass, water, Media::none},
+            priority};
+}
+
+// With the higher priority the glass begins at 3, and the water's bottom is no surface; with the lower one it begins
+// where the water ends.
 TEST_CASE("media: where water and glass overlap the priority says which of them is there") {
     for (const std::int32_t priority : {1, -1}) {
-        const Tank tank{{{{{0, 0, 4}, up, Event::refract},
-                          {{0, 0, 3}, up, Event::refract},
-                          {{0, 0, 2.5}, down, Event::refract},
-                          {{0, 0, 0}, up, Event::deposit}}},
-                        {water, glass, water, Media::none},
-                        priority};
+        const Tank tank = overlapping(priority);
         Statistics account;
         const auto deposit = walk_in(tank, {0, 0, 5}, {0.8, 0, -0.6}, account);
         REQUIRE(deposit);
@@ -204,12 +211,7 @@ TEST_CASE("media: where water and glass overlap the priority says which of them 
 // their media too, so that those that end on the floor come at the floor's own angle.
 TEST_CASE("media: photons that follow all ways know the medium on each of them") {
     for (const std::int32_t priority : {1, -1}) {
-        const Tank tank{{{{{0, 0, 4}, up, Event::refract},
-                          {{0, 0, 3}, up, Event::refract},
-                          {{0, 0, 2.5}, down, Event::refract},
-                          {{0, 0, 0}, up, Event::deposit}}},
-                        {water, glass, water, Media::none},
-                        priority};
+        const Tank tank = overlapping(priority);
         Statistics account, of_all_ways;
         const auto expected = walk_in(tank, {0, 0, 5}, {0.8, 0, -0.6}, account);
         REQUIRE(expected);

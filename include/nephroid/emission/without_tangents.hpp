@@ -14,7 +14,7 @@ namespace detail {
 /// Declares the same emission domain as a light.
 template <class L>
 struct DomainLike {
-    static constexpr detail::EmissionDomains domains = detail::emission_domains<L>;
+    static constexpr EmissionDomains domains = emission_domains<L>;
 };
 template <DeclaresDomain L>
 struct DomainLike<L> {

@@ -51,8 +51,8 @@ concept ScattersAllAnywhere = requires(const S& scene, const H& hit, const V& v)
 /// Calls the scene's `scatter_all`, with the photon's medium if it takes that.
 template <class S, class H, class V, class Medium>
     requires(ScattersAllIn<S, H, V, Medium> || ScattersAllAnywhere<S, H, V>)
-[[nodiscard]] auto scatter_all_in([[maybe_unused]] const Medium& medium, const S& scene, const H& hit,
-                                  const V& direction) {
+[[nodiscard]] decltype(auto) scatter_all_in([[maybe_unused]] const Medium& medium, const S& scene, const H& hit,
+                                            const V& direction) {
     if constexpr (ScattersAllIn<S, H, V, Medium>)
         return scene.scatter_all(hit, direction, medium);
     else

@@ -29,6 +29,10 @@ namespace {
     return jump2 / (1 + square(jump2 / 0.1));
 }
 
+[[nodiscard]] MapKinks kinks_of(const std::vector<TangentResidual>& photons) {
+    return map_kinks(tangent_jumps(photons));
+}
+
 } // namespace
 
 // A square of 20 × 20 with a kink through its middle has 1/20 kinks per length, of which a step in any direction
@@ -47,7 +51,7 @@ TEST_CASE("map kinks: their density is that of the lines across which tangents j
             std::vector<TangentResidual> photons;
             for (int i = 0; i < int(square(side / spacing)); ++i)
                 photons.push_back(photon_of_step(draw.in(-side / 2, side / 2), draw.in(-side / 2, side / 2), part));
-            all.add(map_kinks(photons), 1);
+            all.add(kinks_of(photons), 1);
         }
         const double close = pi<double> / 100 / square(spacing);
         const double expected = (1 - close / 3) * counted(part) / side * 2 / pi<double>;
@@ -57,17 +61,17 @@ TEST_CASE("map kinks: their density is that of the lines across which tangents j
 
 TEST_CASE("map kinks: a smooth map has none, nor have fewer than two photons") {
     std::vector<TangentResidual> photons;
-    CHECK(map_kinks(photons).density() == 0);
+    CHECK(kinks_of(photons).density() == 0);
     photons.push_back(photon_of_step(1, 2, 0.3));
-    CHECK(map_kinks(photons).density() == 0);
+    CHECK(kinks_of(photons).density() == 0);
     photons.push_back(photon_of_step(2, 3, 0.3)); // on the same side
-    CHECK(map_kinks(photons).density() == 0);
-    CHECK(map_kinks(photons).photons == 2);
+    CHECK(kinks_of(photons).density() == 0);
+    CHECK(kinks_of(photons).photons == 2);
 }
 
 TEST_CASE("map kinks: a pair counts by its jump over its distance, and the less the further it jumps beyond a third") {
     const auto of_pair = [](double part, double distance) {
-        return map_kinks({photon_of_step(0, 0, part), photon_of_step(distance, 0, part)}).density();
+        return kinks_of({photon_of_step(0, 0, part), photon_of_step(distance, 0, part)}).density();
     };
     for (const double part : {1e-3, 0.1, 0.5, 3.0})
         for (const double distance : {0.3, 1.0, 4.0})
@@ -78,13 +82,13 @@ TEST_CASE("map kinks: a pair counts by its jump over its distance, and the less 
     CHECK(of_pair(1e200, 1) <= 0.1);
     std::vector<TangentResidual> apart{photon_of_step(0, 0, 0), photon_of_step(1, 0, 0)};
     apart[1].residual[0].x = std::numeric_limits<double>::infinity();
-    CHECK(map_kinks(apart).density() == 0);
+    CHECK(kinks_of(apart).density() == 0);
     CHECK(of_pair(0.1, 0) == 0); // photons in one point have no direction
 }
 
 TEST_CASE("map kinks: those of several cells add up by their photons") {
-    MapKinks sum, two = map_kinks({photon_of_step(0, 0, 0.1), photon_of_step(1, 0, 0.1)}),
-                  none = map_kinks({photon_of_step(1, 0, 0.1), photon_of_step(2, 0, 0.1)});
+    MapKinks sum, two = kinks_of({photon_of_step(0, 0, 0.1), photon_of_step(1, 0, 0.1)}),
+                  none = kinks_of({photon_of_step(1, 0, 0.1), photon_of_step(2, 0, 0.1)});
     sum.add(two, 3);
     sum.add(none, 1);
     CHECK(sum.density() == doctest::Approx(0.75 * two.density()).epsilon(1e-12));

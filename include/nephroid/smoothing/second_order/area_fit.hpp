@@ -98,7 +98,7 @@ public:
                 near_photons[i].residual[1] += -near_rows[i].second[k] * x[k];
             }
         }
-        rough = roughness(near_photons);
+        rough = roughness(tangent_jumps(near_photons));
         return true;
     }
 

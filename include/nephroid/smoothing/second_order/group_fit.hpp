@@ -5,11 +5,11 @@
 #include "nephroid/smoothing/second_order/bending.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
 #include "nephroid/smoothing/second_order/group_cells.hpp"
-#include "nephroid/smoothing/second_order/map_kinks.hpp"
 #include "nephroid/smoothing/second_order/landings.hpp"
+#include "nephroid/smoothing/second_order/map_kinks.hpp"
 #include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
-#include "nephroid/smoothing/second_order/tangent_residual.hpp"
+#include "nephroid/smoothing/second_order/tangent_jumps.hpp"
 
 #include <array>
 #include <cmath>
@@ -67,8 +67,9 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
         const auto fitted = tangents_at(cell.map, {photon.at[0], photon.at[1]});
         photon.residual = {photon.tangents[0] - fitted[0], photon.tangents[1] - fitted[1]};
     }
-    cell.kinks = map_kinks(here);
-    const Symmetric2 q = bending(cell.map, options.photons, share, roughness(here), options.bounds.stretch);
+    const std::vector<TangentJump> jumps = tangent_jumps(here);
+    cell.kinks = map_kinks(jumps);
+    const Symmetric2 q = bending(cell.map, options.photons, share, roughness(jumps), options.bounds.stretch);
     cell.log_q = log_bending(q, options.bounds);
     cell.is_resolved = cell.is_resolved && std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);
 }

@@ -3,7 +3,7 @@
 ///        normals.
 #pragma once
 
-#include "nephroid/smoothing/second_order/tangent_residual.hpp"
+#include "nephroid/smoothing/second_order/tangent_jumps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -24,21 +24,22 @@ struct MapKinks {
     [[nodiscard]] double density() const { return photons > 0 ? jumps / photons : 0; }
 };
 
-/// The kinks among some photons. A line through them of length |δ| crosses a kink with a chance in proportion to |δ|,
-/// however large the kink is, so that |J⁻¹ΔJ|²/|δ| has the same mean for any distance δ of the nearest photon. A
-/// smooth map has almost none. Of photons in one cell, those beside its border may have their nearest neighbour in the
-/// next cell, which is not seen: up to a third of the pairs, and of the kinks, in a cell of nine.
+/// The kinks among some photons, from their `tangent_jumps`. A line through them of length |δ| crosses a kink with
+/// a chance in proportion to |δ|, however large the kink is, so that |J⁻¹ΔJ|²/|δ| has the same mean for any
+/// distance δ of the nearest photon. A smooth map has almost none. Of photons in one cell, those beside its border
+/// may have their nearest neighbour in the next cell, which is not seen: up to a third of the pairs, and of the
+/// kinks, in a cell of nine.
 ///
 /// Jumps of more than a third of the tangents count the less the larger they are. Where a map is singular (the rim of a
 /// ball) all photons differ by as much, and smaller footprints would only show single photons.
-[[nodiscard]] inline MapKinks map_kinks(const std::vector<TangentResidual>& photons) {
+[[nodiscard]] inline MapKinks map_kinks(const std::vector<TangentJump>& jumps) {
     constexpr double large = 0.1;   // squared: a jump that counts for half
     constexpr double nearest = 0.1; // u0: random photons that happen to be closer are taken to be this far apart
-    MapKinks kinks{.photons = double(photons.size())};
-    for_each_nearest_pair(photons, [&](double jump2, double distance2) {
-        if (std::isfinite(jump2))
-            kinks.jumps += jump2 / (1 + square(jump2 / large)) / (std::max)(std::sqrt(distance2), nearest);
-    });
+    MapKinks kinks{.photons = double(jumps.size())};
+    for (const TangentJump& jump : jumps)
+        if (std::isfinite(jump.size2))
+            kinks.jumps +=
+                jump.size2 / (1 + square(jump.size2 / large)) / (std::max)(std::sqrt(jump.distance2), nearest);
     return kinks;
 }
 

@@ -2,7 +2,7 @@
 /// @file  Measures the bending of a map that no smooth fit explains: facets of a mesh, ripples smaller than a cell.
 #pragma once
 
-#include "nephroid/smoothing/second_order/tangent_residual.hpp"
+#include "nephroid/smoothing/second_order/tangent_jumps.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -16,14 +16,12 @@ namespace nephroid::detail {
 /// footprints would only show single photons.
 ///
 /// @return  0 for fewer than two photons
-[[nodiscard]] inline double roughness(const std::vector<TangentResidual>& photons) {
-    if (photons.size() < 2)
-        return 0;
+[[nodiscard]] inline double roughness(const std::vector<TangentJump>& jumps) {
     constexpr double limit = 0.15;
     double sum = 0;
-    for_each_nearest_pair(photons,
-                          [&](double jump2, double distance2) { sum += (std::min)(limit, jump2 / distance2); });
-    return sum / double(photons.size());
+    for (const TangentJump& jump : jumps)
+        sum += (std::min)(limit, jump.size2 / jump.distance2);
+    return jumps.empty() ? 0 : sum / double(jumps.size());
 }
 
 } // namespace nephroid::detail

@@ -17,11 +17,14 @@ struct TangentResidual {
     std::array<Double3, 2> tangents, residual;
 };
 
-/// Calls visit(jump2, distance2) for each photon and the one nearest to it. jump2 is |J⁻¹ΔJ|², where ΔJ is the
-/// difference between the residuals of the two; distance2 is that of their emission coordinates, > 0. Photons without
-/// another at a distance are left out.
-template <class Visit>
-void for_each_nearest_pair(const std::vector<TangentResidual>& photons, Visit&& visit) {
+/// From a photon to the one nearest to it.
+struct TangentJump {
+    double size2 = 0; ///< |J⁻¹ΔJ|², ΔJ the difference between the residuals of the two
+    double distance2 = std::numeric_limits<double>::infinity(); ///< of their emission coordinates, per u0²; > 0
+};
+
+/// One for each photon; no jump at an infinite distance where no other photon is at a distance.
+[[nodiscard]] inline std::vector<TangentJump> tangent_jumps(const std::vector<TangentResidual>& photons) {
     const auto distance2_between = [](const TangentResidual& a, const TangentResidual& b) {
         double sum = 0;
         for (std::size_t axis = 0; axis < 4; ++axis)
@@ -33,7 +36,9 @@ void for_each_nearest_pair(const std::vector<TangentResidual>& photons, Visit&& 
         const Plane2 u = pull_back(jump[0]), v = pull_back(jump[1]);
         return inner(u, u) + inner(v, v);
     };
-    for (const TangentResidual& a : photons) {
+    std::vector<TangentJump> jumps(photons.size());
+    for (std::size_t i = 0; i < photons.size(); ++i) {
+        const TangentResidual& a = photons[i];
         const TangentResidual* nearest = nullptr;
         double distance2 = std::numeric_limits<double>::infinity();
         for (const TangentResidual& b : photons)
@@ -45,8 +50,9 @@ void for_each_nearest_pair(const std::vector<TangentResidual>& photons, Visit&& 
             continue;
         const std::array<Double3, 2> jump{nearest->residual[0] - a.residual[0], nearest->residual[1] - a.residual[1]};
         // The smaller of the two values counts: relative to a collapsed footprint, any jump is large.
-        visit((std::min)(size2(a.tangents, jump), size2(nearest->tangents, jump)), distance2);
+        jumps[i] = {(std::min)(size2(a.tangents, jump), size2(nearest->tangents, jump)), distance2};
     }
+    return jumps;
 }
 
 } // namespace nephroid::detail
