@@ -278,9 +278,10 @@ TEST_CASE("target spacing: ripples of density stay as they are and without a tar
     CHECK(before - after < 0.6 * (before - level)); // and without, but for what the pilot's disc does not see
 }
 
-// Pilots of 150 photons show a quarter less contrast than there is. A perfect relaxation to them would lose that by
-// exp(−n q²/(8πρ)) with q = 4π and n = 13.9 photons levelled in an iteration: 0.58 of it in 30 iterations and
-// 0.95 in 100. Ours loses more; corrected it must lose less. The noise of a wave, sqrt(2/6000), hardly changes.
+// Pilots of 150 photons show a quarter less contrast than there is. A perfect relaxation to them would lose that
+// by exp(−n q²/(8πρ)) with q = 4π and n = 8 (λ/3 − 1/(5λ)) (K + 1) = 13.9 for λ = 1 and K = 12, as density
+// diffuses [include/nephroid/README.md]: 0.58 of it in 30 iterations and 0.95 in 100. Ours loses more; corrected
+// it must lose less. The noise of a wave, sqrt(2/6000), hardly changes.
 TEST_CASE("target spacing: corrected pilots keep contrast better than any relaxation to uncorrected ones could") {
     const double blurred = 0.8 - pilot_contrast(150), noise = std::sqrt(2.0 / 6000);
     CHECK(blurred > 0.15);
