@@ -4,6 +4,7 @@
 
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/receiver/sink.hpp"
+#include "nephroid/tree/element_at.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -36,7 +37,7 @@ void estimate_at(const Vertices& vertices, Position position, Normal normal, con
     const std::size_t count = std::size_t(std::ranges::size(vertices));
     std::vector<F> estimates(count, flux_traits<F>::zero());
     detail::for_each_index(executor, count, 256, [&](std::size_t i) {
-        auto&& vertex = std::ranges::begin(vertices)[std::ranges::range_difference_t<const Vertices>(i)];
+        auto&& vertex = detail::element_at(vertices, i);
         estimates[i] = estimate(std::invoke(position, vertex), std::invoke(normal, vertex));
     });
     for (std::size_t i = 0; i < count; ++i)
