@@ -24,7 +24,7 @@ namespace nephroid {
 /// @param estimate  estimate(position, normal): NearestPhotons, FixedRange, DifferentialMap, DiffusionEstimate, or any
 ///                  callable like them; called from several threads at once
 /// @param executor  who runs the work; the result does not depend on it
-/// @param sink      `Sink`
+/// @param sink      `Sink` (receiver/sink.hpp). All estimates are kept until the first of its calls
 template <std::ranges::random_access_range Vertices, class Position, class Normal, class Estimate, class E, class S>
     requires ExecutorArgument<E>
 void estimate_at(const Vertices& vertices, Position position, Normal normal, const Estimate& estimate, E&& executor,

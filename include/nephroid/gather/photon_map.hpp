@@ -33,7 +33,8 @@ public:
     /// @param normal     projection to V: of the surface, unit, on the side that the photon came from
     /// @param direction  projection to V: of flight
     /// @param flux       projection to F, finite: the photon's share, divided by the number emitted
-    /// Throws std::invalid_argument naming the photon whose position, normal, direction or flux cannot be.
+    /// Throws std::invalid_argument, with the photon's index, for a value that is not finite and a normal that is not
+    /// unit.
     template <std::ranges::random_access_range Photons, class Position, class Normal, class Direction, class Power>
     PhotonMap(const Photons& photons, Position position, Normal normal, Direction direction, Power flux)
         : tree_(
