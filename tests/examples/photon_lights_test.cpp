@@ -3,9 +3,9 @@
 #include "common/photon_lights.hpp"
 
 #include "examples/worlds.hpp"
-#include "support/is_sanitized.hpp"
 #include "nephroid/pass/photons_to_emit.hpp"
 #include "nephroid/sequence/halton.hpp"
+#include "support/is_sanitized.hpp"
 
 #include <doctest/doctest.h>
 
