@@ -68,6 +68,7 @@ private:
             reporter_.deposit(steps_.deposit(hit));
         if (scattering.event == Event::deposit)
             return steps_.end(Fate::absorbed);
+        ++account_.diffuse_events;
         return bounce_diffusely(steps_, hit, F(scattering.weight), sampler, account_) && counts_bounce();
     }
 
