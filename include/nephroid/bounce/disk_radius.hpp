@@ -129,7 +129,7 @@ private:
 template <class V, class F, class E>
 [[nodiscard]] double validated_radius(const FreeDistances<V>& distances, const QuarteredDeposits<V, F>& stored,
                                       std::uint64_t photons, std::uint64_t all, E& executor) {
-    constexpr std::size_t fewest = 64, in_smallest = 16, most_steps = 8; // 2,048 deposits in the largest disk
+    constexpr std::size_t fewest = 64, in_smallest = 64, most_steps = 8; // 8,192 deposits in the largest disk
     const double reach = double(distances.reach());
     if (stored.deposits.size() < fewest || distances.map().tree().empty())
         return reach;

@@ -67,7 +67,7 @@ template <class S, class L, class V, class Sequence, class E>
 [[nodiscard]] double radius_from_pilot(const S& scene, const L& lamp, const FreeDistances<V>& distances,
                                        const PhotonPass& pass, const Sequence& sequence, E& executor) {
     using F = typename L::flux_type;
-    constexpr std::uint64_t most = 8192;
+    constexpr std::uint64_t most = 32768;
     PhotonPass pilot = pass;
     if (pass.total != 0) // parts of one picture have one pilot
         pilot.first = 0;
@@ -128,7 +128,7 @@ template <class S, class L, class V, class F, class R, class Sequence, class E>
 /// @param arguments  optional, in any order: the sequence that photon i's numbers come from (otherwise
 ///                   `HaltonSequence`) and an executor. The sums are the same bit for bit with any executor
 /// Throws std::invalid_argument for zero photons, a radius that is not positive, distances of another map, and a scene
-/// none of whose surfaces returns Event::diffuse. Memory: a second copy of the sums, one batch, and at most 8,192 pilot
+/// none of whose surfaces returns Event::diffuse. Memory: a second copy of the sums, one batch, and at most 32,768 pilot
 /// photons.
 template <class S, class L, class V, class F, class R, detail::MustBeTraceArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
