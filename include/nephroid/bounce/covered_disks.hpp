@@ -25,12 +25,15 @@ struct KeepFootprint {
 
 /// The policies of disks of one radius, under a kernel of the distance in space. On a plane that is the distance within
 /// it; on a sphere it makes the kernel's integral exact [Archimedes: a cap's area is π chord²].
+template <class V>
 struct DiskPolicies
     : SplatPolicies<BiweightKernel, NoPixelFilter, DiscardCollapsed, KeepFootprint, FixedFootprint, FirstOrder> {
-    /// Adds a disk to the vertices of a leaf. A vertex receives if its surface is one with the photon's, as a free
-    /// distance has it: turned by less than 60°, and within a quarter of the radius of its plane. So photons on the
-    /// other side of a wall do not shine through.
-    template <class V, class F, class R>
+    const FreeDistances<V>* distances;
+
+    /// Adds a disk to the vertices of a leaf. A vertex receives if its surface is one with the photon's, as free
+    /// distances have it: turned by less than 60°, within a quarter of the radius of its plane, and with nothing
+    /// between. So photons on the other side of a wall, or behind it, do not shine through.
+    template <class F, class R>
     void add(const Splat<V, F>& disk, const LeafMeeting& meeting, std::uint32_t leaf, Sums<V, F, R>& sums) const {
         using T = scalar_t<V>;
         using t = vector_traits<V>;
@@ -59,6 +62,7 @@ struct DiskPolicies
                 weight[i] = keep_if(height * height < T(1), weight[i]);
             }
         }
+        distances->keep_reached(leaf, cx, cy, cz, T(shape.radius), weight);
         F* const sum = sums.of_leaf(leaf).data();
         for (std::size_t i = 0; i < count; ++i)
             if constexpr (std::is_same_v<R, Irradiance>)
@@ -69,7 +73,10 @@ struct DiskPolicies
     }
 };
 
-[[nodiscard]] inline DiskPolicies disks_of(double radius) { return {{.shape = {radius}}}; }
+template <class V>
+[[nodiscard]] DiskPolicies<V> disks_of(double radius, const FreeDistances<V>& distances) {
+    return {{.shape = {radius}}, &distances};
+}
 
 /// What of a kernel lies on the surface is taken as at least this much. Less is left in gaps that are far narrower than
 /// the disk, and free distances are not exact to more.

@@ -86,6 +86,7 @@ private:
         const EyePathMap<V>& map = distances_.map();
         const V position = vertex(slot), relative = tree_.relative(position);
         const V normal = make_vector<V>(map.normal_x()[slot], map.normal_y()[slot], map.normal_z()[slot]);
+        const double normal_distance = disks_of(1, distances_).normal_distance;
         const double spacing = double(map.spacing_at(position)), far = radii.back();
         const T reach = T(far), x = t::x(relative), y = t::y(relative), z = t::z(relative);
         tree_.visit_leaves(Box<T>{{x - reach, y - reach, z - reach}, {x + reach, y + reach, z + reach}},
@@ -99,10 +100,12 @@ private:
                                    const Deposit<V, F, 0>& deposit = stored_.deposits[tree_.index(i)];
                                    if (!(dot(deposit.normal, normal) > T(one_surface_cosine)))
                                        continue;
+                                   if (!distances_.reaches(slot, from))
+                                       continue;
                                    const double height = std::abs(double(dot(from, deposit.normal)));
                                    const double power = double(flux_traits<F>::power(deposit.flux));
                                    for (std::size_t r = radii.size(); r-- > 0 && distance2 < square(radii[r]);)
-                                       if (height < (std::max)(disks_of(1).normal_distance * radii[r], spacing))
+                                       if (height < (std::max)(normal_distance * radii[r], spacing))
                                            pictures[r][stored_.quarter[tree_.index(i)]][place] +=
                                                power * BiweightKernel{}(distance2 / square(radii[r]));
                                }

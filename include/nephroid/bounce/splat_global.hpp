@@ -89,7 +89,7 @@ template <class S, class L, class V, class F, class R, class Sequence, class E>
                                        const FreeDistances<V>& distances, const PhotonPass& pass, double radius,
                                        const Sequence& sequence, E& executor) {
     Sums<V, F, R> disks(sums.map(), sums.response());
-    Splatter splatter(disks, disks_of(radius));
+    Splatter splatter(disks, disks_of(radius, distances));
     IndirectPhotons photons(scene, lamp, pass, sequence);
     Statistics traced;
     splat_in_batches(
@@ -136,7 +136,7 @@ template <class S, class L, class V, class F, class R, detail::MustBeTraceArgume
 GlobalSplats splat_global(const S& scene, const L& lamp, Sums<V, F, R>& sums, const FreeDistances<V>& distances,
                           const GlobalPass& pass, Arguments&&... arguments) {
     detail::check(pass, sums, distances);
-    return detail::with_splat_arguments<detail::DiskPolicies>(
+    return detail::with_splat_arguments<Published>(
         [&](const auto&, const auto& sequence, auto& executor) {
             const auto source = detail::without_tangents(lamp);
             const PhotonPass photons{

@@ -20,8 +20,8 @@ inline constexpr double one_surface_cosine = 0.5;
 ///
 /// A ray begins a little above the place and flies along the surface. What it hits ends the surface if its normal is
 /// turned by more than 60°; otherwise it is the surface, curved, and the next ray goes on from there. Where nothing
-/// stands in the way, rays downwards tell whether there is still surface below: within a quarter of the distance flown,
-/// as splats reach no further from their plane. If not, the edge is found by halving.
+/// stands in the way, rays downwards tell whether there is still surface below. If not, the edge is found by halving. A
+/// surface also ends where it has left the tangent plane by a quarter of the distance, as splats reach no further.
 template <class S, Vector3 V>
     requires RayTracer<S, V>
 class SurfaceProbe {
@@ -40,7 +40,7 @@ public:
         const T lift = (std::max)(least_lift_, T(64) * std::numeric_limits<T>::epsilon() * largest_component(position));
         Place at{position, normal};
         V heading = direction;
-        T flown(0);
+        T flown(0), risen(0); // up to the place that the surface was followed to
         for (int segment = 0; segment < most_segments && flown < reach_; ++segment) {
             const T rest = reach_ - flown;
             const std::optional<Met> met = trace(at.position + lift * at.normal, heading, rest);
@@ -49,8 +49,13 @@ public:
                 const T end = ground_along(at, heading, lift, met ? met->distance : rest, bool(met), normal);
                 return std::clamp(T(flown + end), T(0), reach_);
             }
+            const V way = met->position - position;
+            const T distance = length(way), rise = abs(dot(way, normal)) / distance;
+            if (rise > most_rise) // interpolated, as the ray has left it behind
+                return flown + (distance - flown) * (most_rise - risen) / (rise - risen);
             at = {met->position, met->normal};
-            flown = length(V(at.position - position));
+            flown = distance;
+            risen = rise;
             const V along = direction - dot(direction, at.normal) * at.normal;
             heading = normalize(along); // at most 60° from the direction, so never zero
         }
@@ -63,6 +68,7 @@ public:
 private:
     static constexpr int most_segments = 32;
     static constexpr int halvings = 6;
+    static constexpr T most_rise = T(0.25); ///< off the tangent plane, over the distance
 
     struct Place {
         V position, normal;
@@ -100,7 +106,7 @@ private:
             return end;
         const auto has_ground = [&](T s) {
             const V above = at.position + (lift * at.normal + s * heading);
-            const std::optional<Met> met = trace(above, V(-at.normal), T(2) * lift + s / T(4));
+            const std::optional<Met> met = trace(above, V(-at.normal), T(2) * lift + most_rise * s);
             return met && is_same_surface(met->normal, normal);
         };
         T ground = T(0), beyond = stands ? end - lift : end;
