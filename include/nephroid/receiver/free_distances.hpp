@@ -78,8 +78,8 @@ public:
         return table_.coverage(slot, radius, kernel);
     }
 
-    /// Whether a place belongs to the piece of surface about a vertex: nothing ends the surface before it in its
-    /// direction, nor in both of the directions beside. So light in the next room stays there, behind the thinnest wall.
+    /// Whether a place belongs to the piece of surface about a vertex: nothing ends the surface before it. So light in
+    /// the next room stays there, behind the thinnest wall.
     ///
     /// @param slot    of the vertex in the map's tree
     /// @param offset  of the place from the vertex, world units

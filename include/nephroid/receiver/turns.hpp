@@ -5,7 +5,6 @@
 #include "nephroid/vector/algebra.hpp"
 #include "nephroid/vector/frame.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -32,15 +31,24 @@ template <Scalar T>
     return std::int32_t(quarters * T(turns / 4));
 }
 
-/// Which of the directions (i + 1/2)/count of a turn is nearest to the middle of each part. One part more, as rounding
-/// may lead to the end.
-[[nodiscard]] inline std::array<std::uint8_t, turns + 1> directions_by_turn(std::size_t count) {
-    std::array<std::uint8_t, turns + 1> directions{};
-    for (std::size_t i = 0; i < turns; ++i) {
-        const double quarters = (double(i) + 0.5) / double(turns / 4);
+/// Where a part of the turn lies among directions.
+struct BetweenDirections {
+    std::uint8_t before, after; ///< the directions on both sides
+    float share;                ///< of the way from one to the other, in [0, 1]
+};
+
+/// For each part of the turn, where its middle lies among the directions (i + 1/2)/count. One part more, as rounding may
+/// lead to the end.
+[[nodiscard]] inline std::array<BetweenDirections, turns + 1> directions_by_turn(std::size_t count) {
+    std::array<BetweenDirections, turns + 1> directions{};
+    for (std::size_t i = 0; i <= turns; ++i) {
+        const double quarters = (double(i % turns) + 0.5) / double(turns / 4);
         const double x = quarters < 2 ? 1 - quarters : quarters - 3, y = 1 - std::abs(x);
         const double turn = std::atan2(quarters < 2 ? y : -y, x) / (2 * pi<double>);
-        directions[i] = std::uint8_t((std::min)(count - 1, std::size_t((turn < 0 ? turn + 1 : turn) * double(count))));
+        const double at = (turn < 0 ? turn + 1 : turn) * double(count) + double(count) - 0.5;
+        const auto before = std::size_t(at);
+        directions[i] = {std::uint8_t(before % count), std::uint8_t((before + 1) % count),
+                         float(at - double(before))};
     }
     return directions;
 }
