@@ -5,6 +5,7 @@
 #include "nephroid/bounce/illumination.hpp"
 #include "nephroid/bounce/splat_global.hpp"
 #include "nephroid/caustics.hpp"
+#include "nephroid/emission/target.hpp"
 
 #include <cstdint>
 #include <optional>

@@ -107,9 +107,9 @@ template <class T>
     using V = glm::vec<3, T>;
     Room<T> room = furnace<T>();
     const V low{T(0.3), 0, T(0.3)}, x{T(0.3), 0, 0}, y{0, T(0.4), 0}, z{0, 0, T(0.3)};
-    for (const Wall<T, T>& wall : {Wall<T, T>{low, z, y, T(0.5)}, Wall<T, T>{low + x, y, z, T(0.5)},
-                                   Wall<T, T>{low, y, x, T(0.5)}, Wall<T, T>{low + z, x, y, T(0.5)},
-                                   Wall<T, T>{low + y, z, x, T(0.5)}})
+    for (const Wall<T, T>& wall :
+         {Wall<T, T>{low, z, y, T(0.5)}, Wall<T, T>{low + x, y, z, T(0.5)}, Wall<T, T>{low, y, x, T(0.5)},
+          Wall<T, T>{low + z, x, y, T(0.5)}, Wall<T, T>{low + y, z, x, T(0.5)}})
         room.walls.push_back(wall);
     // What glows under the block lights nothing: the floor there is left out, in four parts around it.
     const V o{0, 0, 0};

@@ -120,9 +120,7 @@ TEST_CASE("global: between plates the light of a beam is that of the series") {
     walls[2].albedo = 0.8f, walls[3].albedo = 0.5f;
     const Room<float> room{walls};
     const DirectionalLight<V, float> beam(
-        {.direction = {0, -1, 0},
-         .irradiance = 1,
-         .patch = Parallelogram<V>{V(0, 0.5f, 0), V(1, 0, 0), V(0, 0, 1)}});
+        {.direction = {0, -1, 0}, .irradiance = 1, .patch = Parallelogram<V>{V(0, 0.5f, 0), V(1, 0, 0), V(0, 0, 1)}});
     const auto lower = indirect<float>(room, beam, room.vertices(12, {2}), {.count = 6000, .radius = 0.4});
     const auto upper = indirect<float>(room, beam, room.vertices(12, {3}), {.count = 6000, .radius = 0.4});
     CHECK(error_from(lower, 2.0 / 3) < 0.05);
@@ -137,8 +135,8 @@ TEST_CASE("global: photons leave on the walls of a coloured box what a path trac
     walls[0].albedo = C(0.63f, 0.06f, 0.05f);
     walls[1].albedo = C(0.14f, 0.45f, 0.09f);
     const Room<float, C> room{walls};
-    const WithoutTangents lamp(QuadLight<V, C>(
-        {{0.35f, 1, 0.35f}, {0.3f, 0, 0}, {0, 0, 0.3f}, C(float(1 / (0.09 * std::numbers::pi)))}));
+    const WithoutTangents lamp(
+        QuadLight<V, C>({{0.35f, 1, 0.35f}, {0.3f, 0, 0}, {0, 0, 0.3f}, C(float(1 / (0.09 * std::numbers::pi)))}));
     const RandomSequence random(21);
     const std::uint64_t count = 40000;
     const PhotonPass pass{.count = count};
@@ -228,7 +226,8 @@ TEST_CASE("global: a response makes radiance of the photons' directions") {
     splat_global(room, lamp, twice, distances, {.count = 1000, .radius = 0.3});
     std::vector<float> expected(vertices.size());
     plain.for_each([&](std::size_t vertex, float e) { expected[vertex] = e; });
-    twice.for_each([&](std::size_t vertex, float e) { CHECK(e == doctest::Approx(2 * expected[vertex]).epsilon(1e-4)); });
+    twice.for_each(
+        [&](std::size_t vertex, float e) { CHECK(e == doctest::Approx(2 * expected[vertex]).epsilon(1e-4)); });
 }
 
 // The radius by itself, against a grid in steps of √2 that the truth is held against.
@@ -238,7 +237,8 @@ TEST_CASE("global: the radius that it chooses is nearly the best") {
     const auto vertices = room.vertices(8, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13});
     double best = 1;
     for (double radius = 0.1; radius < 0.5; radius *= std::sqrt(2.0))
-        best = std::min(best, error_from(indirect<float>(room, lamp, vertices, {.count = 4000, .radius = radius}), 0.5));
+        best =
+            std::min(best, error_from(indirect<float>(room, lamp, vertices, {.count = 4000, .radius = radius}), 0.5));
     CHECK(error_from(indirect<float>(room, lamp, vertices, {.count = 4000}), 0.5) < 1.1 * best);
 }
 
@@ -251,15 +251,17 @@ TEST_CASE("global: what cannot be is refused with a sentence") {
     auto sums = nephroid::sums<float>(map);
     CHECK(message_of([&] { splat_global(room, lamp, sums, distances, {.count = 0}); }).find("zero photons") !=
           std::string::npos);
-    CHECK(message_of([&] { splat_global(room, lamp, sums, distances, {.count = 9, .radius = -1}); })
-              .find("radius is -1") != std::string::npos);
+    CHECK(message_of([&] {
+              splat_global(room, lamp, sums, distances, {.count = 9, .radius = -1});
+          }).find("radius is -1") != std::string::npos);
     CHECK(message_of([&] { splat_global(room, lamp, sums, of_other, {.count = 9}); }).find("another map") !=
           std::string::npos);
     Room<float> dark = room;
     for (Wall<float, float>& wall : dark.walls)
         wall.event = Event::deposit;
-    CHECK(message_of([&] { splat_global(dark, lamp, sums, distances, {.count = 9, .radius = 0.1}); })
-              .find("Event::diffuse") != std::string::npos);
+    CHECK(message_of([&] {
+              splat_global(dark, lamp, sums, distances, {.count = 9, .radius = 0.1});
+          }).find("Event::diffuse") != std::string::npos);
 }
 
 TEST_CASE("global: a receiver without vertices, and one without light, are no error") {

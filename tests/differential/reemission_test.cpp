@@ -91,8 +91,8 @@ TEST_CASE_TEMPLATE("reemit: the footprint then grows as if it had flown the virt
             const PhotonDifferential<V, 2> hit{(*flight)(sent[0]), (*flight)(sent[1])};
             const double across = double(area_across(arrived, direction));
             const double flown = std::sqrt(across) / 0.25, expected = square((flown + 3) * 0.25);
-            CHECK(std::abs(area(hit) - expected) <= (40 * area(arrived) / across + 4 * 10) *
-                                                        double(std::numeric_limits<T>::epsilon()) * expected);
+            CHECK(std::abs(area(hit) - expected) <=
+                  (40 * area(arrived) / across + 4 * 10) * double(std::numeric_limits<T>::epsilon()) * expected);
         }
     });
 }

@@ -40,7 +40,8 @@ struct AllButDirect : Everything {
 };
 
 template <class S, class L, class Visitor>
-Statistics follow(const S& scene, const L& lamp, std::uint64_t photons, Visitor& visitor, const WalkLimits& limits = {}) {
+Statistics follow(const S& scene, const L& lamp, std::uint64_t photons, Visitor& visitor,
+                  const WalkLimits& limits = {}) {
     const RandomSequence random(5);
     Statistics account;
     for (std::uint64_t i = 0; i < photons; ++i) {
@@ -156,8 +157,7 @@ TEST_CASE("diffuse bounce: an albedo that cannot be makes the photon invalid, an
         for (Wall<double, double>& wall : room.walls)
             wall.albedo = albedo;
         Everything visitor;
-        const Statistics account =
-            follow(room, PointLight<D, double>({{0.4, 0.5, 0.6}, 1.0}), 50, visitor);
+        const Statistics account = follow(room, PointLight<D, double>({{0.4, 0.5, 0.6}, 1.0}), 50, visitor);
         CHECK(account[Fate::invalid].photons == 50);
         CHECK(account.invalid_albedos == 50);
         CHECK((account.invalid_albedo == doctest::Approx(albedo) || albedo != albedo));

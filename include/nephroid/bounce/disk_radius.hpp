@@ -80,7 +80,8 @@ private:
     }
 
     /// Adds the deposits about one vertex to its place in all pictures, as DiskPolicies::add does.
-    void estimate_at(std::size_t place, const std::vector<double>& radii, std::vector<QuarterPictures>& pictures) const {
+    void estimate_at(std::size_t place, const std::vector<double>& radii,
+                     std::vector<QuarterPictures>& pictures) const {
         using t = vector_traits<V>;
         const std::size_t slot = slots_[place];
         const EyePathMap<V>& map = distances_.map();
@@ -142,8 +143,8 @@ template <class V, class F, class E>
     while (radii.back() < reach && radii.size() < most_steps)
         radii.push_back((std::min)(reach, radii.front() * std::exp2(0.5 * double(radii.size()))));
     const std::vector<QuarterPictures> pictures = disks.estimates(radii, executor);
-    const std::optional<double> best = best_step(
-        [&](std::size_t step) { return validated_error(pictures[step], pictures[0], 1); }, radii.size());
+    const std::optional<double> best =
+        best_step([&](std::size_t step) { return validated_error(pictures[step], pictures[0], 1); }, radii.size());
     if (!best)
         return reach;
     const double radius = (std::min)(reach, radii.front() * std::exp2(0.5 * *best));

@@ -139,12 +139,14 @@ GlobalSplats splat_global(const S& scene, const L& lamp, Sums<V, F, R>& sums, co
     return detail::with_splat_arguments<Published>(
         [&](const auto&, const auto& sequence, auto& executor) {
             const auto source = detail::without_tangents(lamp);
-            const PhotonPass photons{
-                .first = pass.first, .count = pass.count, .total = pass.total, .limits = pass.limits,
-                .progress = pass.progress};
-            const double radius = pass.radius ? *pass.radius
-                                              : detail::radius_from_pilot(scene, source, distances, photons, sequence,
-                                                                          executor);
+            const PhotonPass photons{.first = pass.first,
+                                     .count = pass.count,
+                                     .total = pass.total,
+                                     .limits = pass.limits,
+                                     .progress = pass.progress};
+            const double radius =
+                pass.radius ? *pass.radius
+                            : detail::radius_from_pilot(scene, source, distances, photons, sequence, executor);
             return detail::splat_disks(scene, source, sums, distances, photons, radius, sequence, executor);
         },
         arguments...);

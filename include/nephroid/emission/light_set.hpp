@@ -111,7 +111,7 @@ public:
 
     /// The same lights, all aimed at what lies within a sphere.
     [[nodiscard]] LightSet aimed_at(const BoundingSphere<vector>& target) const
-        requires(AimsAt<First, vector> && ... && AimsAt<Others, vector>) {
+        requires(AimsAt<First, vector>&&...&& AimsAt<Others, vector>) {
         std::vector<AnyLight> aimed;
         for (const AnyLight& light : lights_)
             std::visit([&](const auto& one) { aimed.push_back(one.aimed_at(target)); }, light);

@@ -40,8 +40,8 @@ public:
                    T(detail::one_surface_cosine);
         };
         std::array<Neighbour<T>, 1> nearest;
-        const std::size_t found = map.tree().nearest(map.tree().relative(position), nearest,
-                                                     std::numeric_limits<T>::infinity(), faces);
+        const std::size_t found =
+            map.tree().nearest(map.tree().relative(position), nearest, std::numeric_limits<T>::infinity(), faces);
         return found > 0 ? distances_->coverage(nearest[0].slot, radius, kernel_) : T(1);
     }
 

@@ -60,8 +60,8 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
     if (s.invalid_albedos > 0)
         found.push_back({part_of(double(s.invalid_albedos), emitted),
                          percent(part_of(double(s.invalid_albedos), emitted)) +
-                             " of the photons met an albedo that cannot be, first of " +
-                             text_of(s.invalid_albedo) + " on surface " + std::to_string(s.invalid_albedo_surface) +
+                             " of the photons met an albedo that cannot be, first of " + text_of(s.invalid_albedo) +
+                             " on surface " + std::to_string(s.invalid_albedo_surface) +
                              ": the `weight` of Event::diffuse must be in [0, 1] in each band"});
     add(part_of(double(s[Fate::invalid].photons - s.invalid_albedos), emitted), 1e-3,
         "the photons are invalid: a number of the hit or of `scatter` was none, a normal or direction was not unit "

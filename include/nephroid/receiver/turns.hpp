@@ -47,8 +47,7 @@ struct BetweenDirections {
         const double turn = std::atan2(quarters < 2 ? y : -y, x) / (2 * pi<double>);
         const double at = (turn < 0 ? turn + 1 : turn) * double(count) + double(count) - 0.5;
         const auto before = std::size_t(at);
-        directions[i] = {std::uint8_t(before % count), std::uint8_t((before + 1) % count),
-                         float(at - double(before))};
+        directions[i] = {std::uint8_t(before % count), std::uint8_t((before + 1) % count), float(at - double(before))};
     }
     return directions;
 }

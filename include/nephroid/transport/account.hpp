@@ -82,7 +82,7 @@ struct Statistics {
                                              ///< footprints of s = 8 or of the pass's own s
     std::uint64_t bounded_footprints = 0;    ///< footprints that the excess or the collapse policy changed
     std::uint64_t invalid_albedos = 0; ///< photons that met an albedo that is negative, above 1 in a band, or no number
-    double invalid_albedo = 0;         ///< the first of these albedos, as the power of the flux it left over that before
+    double invalid_albedo = 0; ///< the first of these albedos, as the power of the flux it left over that before
     std::uint64_t invalid_albedo_surface = 0; ///< `surface` of the hit there, if hits have it
 
     [[nodiscard]] const Tally& operator[](Fate fate) const { return fates[std::size_t(fate)]; }

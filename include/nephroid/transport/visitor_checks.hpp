@@ -57,11 +57,11 @@ consteval bool fits_walk() {
     constexpr bool deposit_fits = deposits || !NamesDeposit<Visitor>;
     constexpr bool result_fits =
         !deposits || EndsPhotonsAtDeposits<Visitor, V, F, N> || SendsPhotonsOn<Visitor, V, F, N>;
-    constexpr bool bounces_fit = !follows_bounces<Visitor> || (N == 0 && EndsPhotonsAtDeposits<Visitor, V, F, N> &&
-                                                               !follows_all_ways<Visitor>);
+    constexpr bool bounces_fit =
+        !follows_bounces<Visitor> || (N == 0 && EndsPhotonsAtDeposits<Visitor, V, F, N> && !follows_all_ways<Visitor>);
     constexpr bool ways_fit = !follows_all_ways<Visitor> || (deposits && ScattersDeterministically<S, V>);
-    return has_any && flight_fits && meet_fits && deposit_fits && result_fits && bounces_fit &&
-           ways_fit && TrailOver<trail_t<Visitor>, H>;
+    return has_any && flight_fits && meet_fits && deposit_fits && result_fits && bounces_fit && ways_fit &&
+           TrailOver<trail_t<Visitor>, H>;
 }
 
 /// What is wrong with a visitor, as the first line of the compiler's message.

@@ -66,8 +66,8 @@ public:
 
     /// The same light, aimed at what lies within a sphere.
     [[nodiscard]] SpotLight aimed_at(const BoundingSphere<V>& target) const {
-        return SpotLight({position_, axis_, T(1) - inner_height_, T(1) - inner_height_ - ring_height_, intensity_,
-                          target});
+        return SpotLight(
+            {position_, axis_, T(1) - inner_height_, T(1) - inner_height_ - ring_height_, intensity_, target});
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
