@@ -60,7 +60,8 @@ struct Picture {
 } // namespace
 
 // The mirror makes a second lamp of the same power at y = 1.5. A lamp of intensity I at height h lights the floor below
-// by I/h²; what both send to diffuse walls, Φ (all of it), makes Φ ρ/(1 − ρ) of indirect light on 5 of 6 sides of area 1.
+// by I/h²; what both send to diffuse walls, Φ (all of it), makes Φ ρ/(1 − ρ) of indirect light on 5 of 6 sides
+// of area 1.
 TEST_CASE("illuminate: caustics are of the mirror alone, and indirect light of the walls alone") {
     const Room<float> room = room_with_mirror();
     const auto vertices = room.vertices(12, {0, 1, 2, 4, 5});

@@ -40,8 +40,8 @@ struct IlluminationStatistics {
 };
 
 namespace detail {
-/// The radius that was chosen is best for one pass by itself. The mean of passes keeps their bias and loses their noise,
-/// so that disks of the passes after it begin with this share of the radius: 0.84 / sqrt(Γ(5/3))
+/// The radius that was chosen is best for one pass by itself. The mean of passes keeps their bias and loses their
+/// noise, so that disks of the passes after it begin with this share of the radius: 0.84 / sqrt(Γ(5/3))
 /// (include/nephroid/README.md, "Coverage").
 inline constexpr double radius_of_later_passes = 0.8;
 } // namespace detail
@@ -59,7 +59,8 @@ inline constexpr double radius_of_later_passes = 0.8;
 /// });
 /// ```
 ///
-/// @param scene      its `scatter` returns Event::diffuse, with the albedo as the weight, on surfaces that send light on
+/// @param scene      its `scatter` returns Event::diffuse, with the albedo as the weight, on surfaces that send light
+///                   on
 /// @param lamp       one light or a LightSet, not aimed at anything
 /// @param light      what the pass is added to. Pass i traces photons i · count and those after it
 /// @param pass       how many photons, and what caustics are aimed at

@@ -78,9 +78,9 @@ template <class Call>
 
 } // namespace
 
-// M ρ/(1 − ρ) = 0.5 everywhere. A disk of radius 0.4 has 5,000 deposits on 6 walls of area 1: 420, so that the noise is
-// √(1.8/420) = 0.065, and as √coverage less of them near edges; measured 0.065 to 0.075 with other seeds. Without
-// coverage the error is 0.19.
+// M ρ/(1 − ρ) = 0.5 everywhere. A disk of radius 0.4 has 5,000 deposits on 6 walls of area 1: 420, so that the
+// noise is √(1.8/420) = 0.065, and as √coverage less of them near edges; measured 0.065 to 0.075 with other seeds.
+// Without coverage the error is 0.19.
 TEST_CASE("global: in a furnace it is a half everywhere, in edges and corners too, however the cube lies") {
     const Room<float> straight = furnace<float>();
     for (const Room<float>& room : {straight, turned(straight)}) {
@@ -111,8 +111,8 @@ TEST_CASE("global: in an integrating sphere it is even, and no energy is lost") 
     CHECK(std::abs(mean_of(picture) * std::numbers::pi - 1) < 2 * 4.5 / 4 / std::sqrt(5000.0));
 }
 
-// Plates y = 0 and y = 1 of albedos 0.8 and 0.5 between mirrors, under an even beam of irradiance 1: each flight between
-// them passes on the mean, so that below it is 1/(1 − 0.4) − 1 and above 0.8/(1 − 0.4).
+// Plates y = 0 and y = 1 of albedos 0.8 and 0.5 between mirrors, under an even beam of irradiance 1: each flight
+// between them passes on the mean, so that below it is 1/(1 − 0.4) − 1 and above 0.8/(1 − 0.4).
 TEST_CASE("global: between plates the light of a beam is that of the series") {
     auto walls = box_walls<float, float>(1.0f);
     for (const std::size_t mirror : {0u, 1u, 4u, 5u})
@@ -127,8 +127,8 @@ TEST_CASE("global: between plates the light of a beam is that of the series") {
     CHECK(error_from(upper, 4.0 / 3) < 0.05);
 }
 
-// Means over the floor, the red wall and the back wall, indirect light of a box, by a path tracer of 7·10⁷ paths. Each
-// photon's deposits on a wall are one sample of the mean; the standard error is that of the samples.
+// Means over the floor, the red wall and the back wall, indirect light of a box, by a path tracer of 7·10⁷ paths.
+// Each photon's deposits on a wall are one sample of the mean; the standard error is that of the samples.
 TEST_CASE("global: photons leave on the walls of a coloured box what a path tracer finds, by three standard errors") {
     using C = glm::vec3;
     auto walls = box_walls<float, C>(C(0.73f));
@@ -174,8 +174,8 @@ TEST_CASE("global: photons leave on the walls of a coloured box what a path trac
         }
 }
 
-// A lit room beside a dark one, with a screen between that has no thickness. On the dark floor nothing arrives but along
-// the wall, between two of the 32 directions: less than 1% of what it was without the wall's ends.
+// A lit room beside a dark one, with a screen between that has no thickness. On the dark floor nothing arrives but
+// along the wall, between two of the 32 directions: less than 1% of what it was without the wall's ends.
 TEST_CASE("global: light does not shine through a wall, nor under it into the next room") {
     Room<float> room = furnace<float>();
     const V y{0, 1, 0}, z{0, 0, 1};

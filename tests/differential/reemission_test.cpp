@@ -46,9 +46,9 @@ PhotonDifferential<V, 2> drawn(Draws& draw) {
     return {Tangent<V>{a, b}, Tangent<V>{c, d}};
 }
 
-// In halves u of epsilon: the cross product's components 4 u, the product with the direction 4 u more of the whole area;
-// quotient 1; the frame's vectors are off by up to 16 epsilon = 32 u (frame_test.cpp), two products each: 2 (4 + 1 + 32 +
-// 2) u for the area of two. < 40 epsilon of the area on the surface, of which a grazing direction sees little.
+// In halves u of epsilon: the cross product's components 4 u, the product with the direction 4 u more of the whole
+// area; quotient 1; the frame's vectors are off by up to 16 epsilon = 32 u (frame_test.cpp), two products each: 2 (4 +
+// 1 + 32 + 2) u for the area of two. < 40 epsilon of the area on the surface, of which a grazing direction sees little.
 TEST_CASE_TEMPLATE("reemit: the footprint keeps its area on the surface at the bounce", T, float, double, Wide) {
     tests::for_each_vector<T>([]<class V>() {
         Draws draw(71);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file  Chooses the radius of all disks of a pass, by cross-validation over the quarters of its first photons.
 ///
-/// The error at one radius, but for a constant, is that of smoothing/cross_validation.hpp: ΣW² − A B₀ − B A₀. Behind a
-/// diffuse bounce even photons of a stratified sequence are random, so that the halves A and B are independent.
+/// The error at one radius, but for a constant, is that of smoothing/cross_validation.hpp: ΣW² − A B₀ − B A₀.
+/// Behind a diffuse bounce even photons of a stratified sequence are random, so that the halves A and B are
+/// independent.
 #pragma once
 
 #include "nephroid/bounce/covered_disks.hpp"

@@ -128,8 +128,8 @@ template <class S, class L, class V, class F, class R, class Sequence, class E>
 /// @param arguments  optional, in any order: the sequence that photon i's numbers come from (otherwise
 ///                   `HaltonSequence`) and an executor. The sums are the same bit for bit with any executor
 /// Throws std::invalid_argument for zero photons, a radius that is not positive, distances of another map, and a scene
-/// none of whose surfaces returns Event::diffuse. Memory: a second copy of the sums, one batch, and at most 32,768 pilot
-/// photons.
+/// none of whose surfaces returns Event::diffuse. Memory: a second copy of the sums, one batch, and at most 32,768
+/// pilot photons.
 template <class S, class L, class V, class F, class R, detail::MustBeTraceArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
                  detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>, 0>)

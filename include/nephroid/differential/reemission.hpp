@@ -10,17 +10,19 @@ namespace nephroid {
 /// The differential of a photon that a diffuse surface re-emits in a random direction.
 ///
 /// The new direction does not depend on the emission parameters, so the old tangents end here. The new ones start as if
-/// the photon had flown a virtual distance v from a point, chosen such that the footprint keeps its area on the surface:
-/// across the new direction it is |(∂x_u × ∂x_v) · ω|. `d_position` already includes the virtual flight.
+/// the photon had flown a virtual distance v from a point, chosen such that the footprint keeps its area on the
+/// surface: across the new direction it is |(∂x_u × ∂x_v) · ω|. `d_position` already includes the virtual
+/// flight.
 ///
 /// @param arrived             the differential at the surface; its first two tangents span the footprint, in the
 ///                            surface's plane
 /// @param direction           of the re-emitted ray, unit
-/// @param d_direction_length  |∂ω/∂p| of each new tangent, radians, > 0: `Spread::length(1 / density)` of the bounce's
-///                            own density, which is cos/π for a diffuse surface (emission/spread.hpp), and not that of
-///                            the light: a collimated beam has none
-/// Source: De Barro et al. 2025 (ARP), eq. 2, after Fabianowski and Dingliana 2009. There the area is |∂x_u × ∂x_v| also
-/// across the direction, which transfer to the surface then divides by the cosine, and the length is the light's.
+/// @param d_direction_length  |∂ω/∂p| of each new tangent, radians, > 0: `Spread::length(1 / density)` of the
+///                            bounce's own density, which is cos/π for a diffuse surface (emission/spread.hpp), and
+///                            not that of the light: a collimated beam has none
+/// Source: De Barro et al. 2025 (ARP), eq. 2, after Fabianowski and Dingliana 2009. There the area is |∂x_u ×
+/// ∂x_v| also across the direction, which transfer to the surface then divides by the cosine, and the length is the
+/// light's.
 template <Vector3 V, std::size_t N>
     requires(N >= 2)
 [[nodiscard]] PhotonDifferential<V, 2> reemit(const PhotonDifferential<V, N>& arrived, const V& direction,

@@ -37,8 +37,8 @@ struct BetweenDirections {
     float share;                ///< of the way from one to the other, in [0, 1]
 };
 
-/// For each part of the turn, where its middle lies among the directions (i + 1/2)/count. One part more, as rounding may
-/// lead to the end.
+/// For each part of the turn, where its middle lies among the directions (i + 1/2)/count. One part more, as rounding
+/// may lead to the end.
 [[nodiscard]] inline std::array<BetweenDirections, turns + 1> directions_by_turn(std::size_t count) {
     std::array<BetweenDirections, turns + 1> directions{};
     for (std::size_t i = 0; i <= turns; ++i) {

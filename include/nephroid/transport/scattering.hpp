@@ -12,8 +12,8 @@ enum class Event : unsigned char {
     refract, ///< into the other medium; beyond the critical angle the walk reflects instead
     deposit, ///< the surface is diffuse (or glossy): the photon is splatted here and ends
     pass,    ///< light does not notice this surface, such as one inside of water: the photon goes on, into `medium`
-    diffuse, ///< as deposit, and the surface scatters the share `weight`, its albedo in [0, 1], in all directions. Where
-             ///< light between diffuse surfaces is not asked for, the photon ends
+    diffuse, ///< as deposit, and the surface scatters the share `weight`, its albedo in [0, 1], in all directions.
+             ///< Where light between diffuse surfaces is not asked for, the photon ends
 };
 
 /// The result of a scene's `scatter`. Your own type with these members will do as well. `eta` is only read for
