@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Closed forms: in an integrating sphere each bounce is uniform; in a furnace, whose walls all emit the flux M per area
-// and reflect the share ρ, the irradiance is M / (1 - ρ) everywhere, whatever stands in it, and M of it is first light.
+// and reflect the share ρ, the irradiance is M / (1 - ρ) everywhere, whatever stands in it; M of it is first light.
 #include "common/path_tracer/bounced_paths.hpp"
 
 #include "common/rooms/mesh_faces.hpp"
@@ -39,7 +39,7 @@ Scene<T, T> furnace(MeshData<T> inside, std::vector<typename Scene<T, T>::Part> 
     return Scene<T, T>(std::move(more), {warm<T>(), material});
 }
 
-/// Four standard errors, which one seed in 16,000 misses, and the rounding of T: paths multiply up to some hundred times.
+/// Four standard errors, which one seed in 16,000 misses, and the rounding of T: paths multiply some hundred times.
 template <class T>
 void check(const Estimate& found, double expected, double most_error) {
     CAPTURE(found.mean);
@@ -51,8 +51,9 @@ void check(const Estimate& found, double expected, double most_error) {
 
 } // namespace
 
-// E = Φ ρ / ((1 - ρ) 4π R²) after all bounces, and Φ (ρ + … + ρⁿ) / (4π R²) after n. A path's number of bounces is
-// geometric with the mean 4 and the variance 20: of 4,000 paths the mean is good to 2%; the lamp's nearness adds some.
+// E = Φ ρ / ((1 - ρ) 4π R²) after all bounces, and Φ (ρ + … + ρⁿ) / (4π R²) after n. A path's number of
+// bounces is geometric with the mean 4 and the variance 20: of 4,000 paths the mean is good to 2%. The lamp's nearness
+// adds some.
 TEST_CASE_TEMPLATE("bounced paths: in an integrating sphere each bounce of a lamp's light is uniform", T, float,
                    double) {
     const Scene<T, T> scene({{Sphere<T>(Vec3<T>(0), 1), 0}}, {Material<T>::diffuse(T(0.8))});
@@ -76,8 +77,8 @@ TEST_CASE_TEMPLATE("bounced paths: in an integrating sphere each bounce of a lam
     }
 }
 
-// Indirect light too is M ρ / (1 - ρ) = 1/2. Near an edge a ray to a random point of the walls has no variance that is
-// finite without the balance heuristic.
+// Indirect light too is M ρ / (1 - ρ) = 1/2. Near an edge a ray to a random point of the walls has no variance that
+// is finite without the balance heuristic.
 TEST_CASE_TEMPLATE("bounced paths: a furnace has the same light everywhere, at edges and in corners too", T, float,
                    double) {
     const Scene<T, T> scene = furnace<T>({});
@@ -144,8 +145,8 @@ Lamps<double, double> white_sky() {
 }
 } // namespace
 
-// Under h of water that absorbs a per length, and does not bend light, a black floor gets 2π ∫ cos exp(-a h / cos) sin dθ
-// from a sky of radiance 1. All of it came through the surface, so none of it is direct.
+// Under h of water that absorbs a per length, and does not bend light, a black floor gets
+// 2π ∫ cos exp(-a h / cos) sin dθ from a sky of radiance 1. All of it came through the surface, so none is direct.
 TEST_CASE("bounced paths: light is absorbed on its way through water") {
     const double absorption = 3, height = 0.2;
     Material<double> water = Material<double>::dielectric(1);

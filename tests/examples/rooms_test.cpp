@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rooms' light against a table that another path tracer and a light tracer made (10⁸ photons), and the conservation
-// of energy. Means over whole walls.
+// The rooms' light against a table that another path tracer made (Cornell's: a light tracer, 10⁸ photons), means over
+// whole walls; and the conservation of energy.
 #include "common/rooms.hpp"
 
 #include "common/path_tracer/layers.hpp"
@@ -95,7 +95,7 @@ TEST_CASE("rooms: the box's lamp sends a flux of 1 in each band") {
         CHECK(std::abs(flux[band] - 1) < 1e-12);
 }
 
-// What a closed room emits its surfaces absorb: ∫ (1 - ρ) E over all of them is the lamps' flux, and glass takes nothing.
+// What a closed room emits its surfaces absorb: ∫ (1 - ρ) E over all of them is the lamps' flux. Glass takes none.
 // Points are drawn evenly from the whole mesh, also from faces on which others stand, which are dark.
 TEST_CASE("rooms: the table's room absorbs what its lamp emits") {
     const auto room = built_in_room<double>("table").value();

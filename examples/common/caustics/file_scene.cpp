@@ -4,6 +4,7 @@
 #include "common/caustics/assume.hpp"
 #include "common/caustics/file_layers.hpp"
 #include "common/image/read_environment.hpp"
+#include "common/image/room_exposure.hpp"
 #include "common/scene_from_gltf.hpp"
 #include "common/stopwatch.hpp"
 
@@ -32,22 +33,6 @@ void check(const GltfScene<float>& gltf, const Options& options) {
         fail("has no triangles; add a mesh");
     if (!gltf.scene.has_specular())
         fail("has no specular surface, so it has no caustic; add glass (KHR_materials_transmission) or a smooth metal");
-}
-
-[[nodiscard]] double luminance(const Color& color) { return (double(color.x) + double(color.y) + double(color.z)) / 3; }
-
-/// The exposure at which nine in ten of the pixels that are not black are below 0.7: caustics may be clipped, not
-/// walls.
-[[nodiscard]] double exposure_of(const std::vector<Color>& pixels) {
-    std::vector<double> brightness;
-    for (const Color& pixel : pixels)
-        if (const double b = luminance(pixel); b > 0)
-            brightness.push_back(b);
-    if (brightness.empty())
-        return 1;
-    const auto bright = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() * 9 / 10);
-    std::nth_element(brightness.begin(), bright, brightness.end());
-    return 0.7 / *bright;
 }
 
 /// Reads the file. The reader's warnings become notes, even if the file cannot be read.
@@ -127,8 +112,9 @@ Rendering render_file(Options& options) {
         add_caustics_of(gltf.scene, gltf.lamps, eye, options, threads, report, picture.pixels);
     report.seconds.total = total.lap();
 
-    const double exposure = exposure_of(picture.pixels);
-    return {Samples(picture), exposure, std::move(report)};
+    Samples samples(picture);
+    const double exposure = room_exposure(samples);
+    return {std::move(samples), exposure, std::move(report)};
 }
 
 } // namespace nephroid::examples

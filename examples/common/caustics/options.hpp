@@ -4,6 +4,7 @@
 
 #include "common/any_sequence.hpp"
 #include "common/command_line.hpp"
+#include "common/layer.hpp"
 
 #include <array>
 #include <cstdint>
@@ -14,7 +15,6 @@
 namespace nephroid::examples {
 
 enum class KernelKind { biweight, epanechnikov, cone, uniform, gaussian };
-enum class Layer { all, caustics, direct };
 
 /// A sun that is added to a file's scene.
 struct Sun {

@@ -92,8 +92,8 @@ private:
                (slope > T(0)) == path.contacts.leaves_along_normal();
     }
 
-    /// Reflects or refracts a path. Radiance changes by (n₁/n₂)² where a path goes from n₁ to n₂: refraction changes
-    /// the solid angle of the light.
+    /// Reflects or refracts a path. Radiance changes by (n₁/n₂)² where a path goes from n₁ to n₂,
+    /// as refraction changes the solid angle of the light.
     ///
     /// @return  whether it goes on; not if a shading normal sends it to the wrong side
     [[nodiscard]] bool turn(FlyingPath<T, F>& path, const Hit<T>& hit, const Bounce<T, F>& bounce) const {
