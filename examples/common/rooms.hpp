@@ -6,6 +6,7 @@
 #include "common/lamps.hpp"
 #include "common/rooms/mesh_faces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string>
@@ -31,6 +32,10 @@ struct Room {
 /// box: the unit cube with a red and a green wall and a lamp in its ceiling. cornell: the same with a ball of glass.
 /// table: a room with a table, chairs, a lamp above and a ball of glass.
 inline constexpr std::array<std::string_view, 3> room_names = {"box", "cornell", "table"};
+
+[[nodiscard]] inline bool is_room(std::string_view name) {
+    return std::find(room_names.begin(), room_names.end(), name) != room_names.end();
+}
 
 /// "box, cornell, table"
 [[nodiscard]] inline std::string names_of_rooms() {

@@ -2,6 +2,7 @@
 /// @file  Paths that bounce between diffuse surfaces, through mirrors and glass, to lamps: the truth about a room.
 #pragma once
 
+#include "common/layer.hpp"
 #include "common/path_tracer/lamp_samples.hpp"
 #include "common/path_tracer/specular_flight.hpp"
 
@@ -32,10 +33,6 @@ struct LightLayers {
     }
     bool operator==(const LightLayers&) const = default;
 };
-
-/// Off diffuse surfaces before the one that is seen. Roulette ends nearly all paths long before, unless a closed room
-/// absorbs nothing; its light is infinite.
-inline constexpr unsigned all_bounces = 4096;
 
 /// One path at a time, unbiased.
 ///

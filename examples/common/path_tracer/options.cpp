@@ -13,19 +13,16 @@ namespace nephroid::examples {
 
 namespace {
 
-const Names<Layer> traced_layers = {
-    {"all", Layer::all}, {"caustics", Layer::caustics}, {"direct", Layer::direct}, {"indirect", Layer::indirect}};
-
 /// What is asked of a room or a file. Throws UsageError if it is asked of a caustic on a floor.
 void read_room(TraceRequest& request, const CLI::App& app, const std::string& bounces, const std::string& layer) {
     RoomPictureOptions& room = request.room;
-    room.layer = chosen("--layer", layer, traced_layers);
-    const std::uint64_t most = bounces == "all" ? all_bounces : whole_number("--bounces", bounces, 0);
-    room.tracing.bounces = static_cast<unsigned>((std::min)(most, std::uint64_t(all_bounces)));
+    room.layer = chosen("--layer", layer, layer_names());
+    room.tracing.bounces = bounces_in(bounces);
     if (room.eye_paths < 1 || room.eye_paths > 4096)
         throw UsageError("--eye-paths: " + std::to_string(room.eye_paths) + " is not from 1 to 4096");
     if (!is_room_or_file(request.scene)) {
-        if (app.count("--layer") + app.count("--eye-paths") > 0 || (app.count("--bounces") > 0 && most > 0))
+        if (app.count("--layer") + app.count("--eye-paths") > 0 ||
+            (app.count("--bounces") > 0 && room.tracing.bounces > 0))
             throw UsageError("--layer, --bounces and --eye-paths: are for the rooms " + names_of_rooms() +
                              " and files; the picture of a case is its caustic");
         return;

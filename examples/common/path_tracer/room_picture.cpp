@@ -66,8 +66,7 @@ struct TracedScene {
 } // namespace
 
 bool is_room_or_file(const std::string& scene) {
-    return std::ranges::find(room_names, scene) != room_names.end() || scene.ends_with(".glb") ||
-           scene.ends_with(".gltf");
+    return is_room(scene) || scene.ends_with(".glb") || scene.ends_with(".gltf");
 }
 
 RoomPicture path_trace_room(const RoomPictureOptions& options, ThreadExecutor& threads,

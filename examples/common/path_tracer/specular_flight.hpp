@@ -66,7 +66,7 @@ public:
             if (!hit)
                 return std::nullopt;
             const Bounce<T, F> bounce = scene_.scatter(*hit, path.direction, sampler, path.medium);
-            if (bounce.event == Event::deposit)
+            if (bounce.event == Event::diffuse)
                 return hit;
             if (bounce.event == Event::absorb)
                 return std::nullopt;
