@@ -6,6 +6,7 @@
 #include "common/scene.hpp"
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -40,6 +41,7 @@ struct AreaLamp {
 
     std::vector<Triangle> triangles; ///< counter-clockwise seen from the side that emits
     F radiance;
+    std::size_t part = 0, material = 0; ///< of the scene, that emit it
 };
 
 template <class T, Flux F>
@@ -67,8 +69,8 @@ struct Lamps {
 template <class T, Flux F>
 [[nodiscard]] std::vector<AreaLamp<T, F>> area_lamps(const Scene<T, F>& scene) {
     std::vector<AreaLamp<T, F>> lamps;
-    for (const auto& part : scene.parts()) {
-        const auto* mesh = std::get_if<TriangleMesh<T>>(&part.shape);
+    for (std::size_t part = 0; part < scene.parts().size(); ++part) {
+        const auto* mesh = std::get_if<TriangleMesh<T>>(&scene.parts()[part].shape);
         if (!mesh)
             continue;
         std::vector<AreaLamp<T, F>> by_material(scene.materials().size());
@@ -90,6 +92,8 @@ template <class T, Flux F>
         for (std::size_t material = 0; material < by_material.size(); ++material)
             if (!by_material[material].triangles.empty()) {
                 by_material[material].radiance = scene.materials()[material].emission;
+                by_material[material].part = part;
+                by_material[material].material = material;
                 lamps.push_back(std::move(by_material[material]));
             }
     }

@@ -68,7 +68,7 @@ public:
             return scatter_mixture(m, hit, direction, through, sampler.template next<T>());
         switch (m.surface) {
         case Surface::diffuse:
-            return {Event::deposit};
+            return scattered(hit);
         case Surface::mirror:
         case Surface::conductor:
             return {Event::reflect, reflectance(m, hit, direction)};
@@ -164,7 +164,7 @@ private:
         if (m.surface == Surface::mirror || m.surface == Surface::conductor)
             return {Event::reflect, reflectance(m, hit, direction)};
         if (!m.passes_light())
-            return {m.is_diffuse() ? Event::deposit : Event::absorb};
+            return m.is_diffuse() ? scattered(hit) : Bounce<T, F>{};
         const Interface<T> at = interface(m, hit, direction, through);
         if (!at.is_real)
             return {Event::pass, grey<F>(1), T(1), at.beyond};
@@ -175,8 +175,10 @@ private:
         if (left < T(0) || !m.is_diffuse())
             return m.surface == Surface::window ? Bounce<T, F>{Event::refract, color(hit), T(1), through}
                                                 : refracted(hit, at, T(1));
-        return {Event::deposit};
+        return scattered(hit);
     }
+
+    [[nodiscard]] Bounce<T, F> scattered(const Hit<T>& hit) const { return {Event::diffuse, color(hit)}; }
 
     [[nodiscard]] double index_of(std::int32_t number) const {
         return number < 0 ? 1 : materials()[static_cast<std::size_t>(number)].ior;

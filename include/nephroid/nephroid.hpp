@@ -27,6 +27,7 @@
 #include "nephroid/gather/photon_map.hpp"
 #include "nephroid/gather/progressive.hpp"
 #include "nephroid/gather/trace_photons.hpp"
+#include "nephroid/illuminate.hpp"
 #include "nephroid/pass/diagnose.hpp"
 #include "nephroid/pass/photons_to_emit.hpp"
 #include "nephroid/quality/error.hpp"

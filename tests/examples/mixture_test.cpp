@@ -139,8 +139,8 @@ TEST_CASE("mixtures: shares of a surface add up, and each number takes the way t
     CHECK(event(0.281).event == Event::refract);
     CHECK(event(0.281).eta == doctest::Approx(1 / 1.5));
     CHECK(event(0.711).event == Event::refract);
-    CHECK(event(0.713).event == Event::deposit);
-    CHECK(event(0.999999).event == Event::deposit);
+    CHECK(event(0.713).event == Event::diffuse);
+    CHECK(event(0.999999).event == Event::diffuse);
 }
 
 // Light on a surface that is diffuse by the share d: photons that choose that part by chance leave d of the flux, and

@@ -69,7 +69,8 @@ TEST_CASE_TEMPLATE("scene: what a material does with a photon", T, float, double
     using V = Vec3<T>;
     ListSampler none;
     const V color(T(0.25), T(0.5), T(0.75));
-    CHECK(bounce<T>(Colors<T>::diffuse(color), false, none).event == Event::deposit);
+    CHECK(bounce<T>(Colors<T>::diffuse(color), false, none).event == Event::diffuse);
+    CHECK(bounce<T>(Colors<T>::diffuse(color), false, none).weight == color);
     CHECK(bounce<T>(Colors<T>::black(), false, none).event == Event::absorb);
     CHECK(bounce<T>(Colors<T>::emitter(color), false, none).event == Event::absorb);
     const auto mirrored = bounce<T>(Colors<T>::mirror(color), false, none);

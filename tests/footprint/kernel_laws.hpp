@@ -2,7 +2,7 @@
 /// @file  What every footprint kernel has to fulfil, beyond what the concept can ask the compiler.
 #pragma once
 
-#include "nephroid/footprint/kernel.hpp"
+#include "nephroid/footprint/kernel_mass.hpp"
 
 #include <doctest/doctest.h>
 
@@ -30,6 +30,21 @@ template <class T, class K>
             sum += weights[k] * static_cast<long double>(kernel(radius2)) * (m == 0 ? 2 * r : r * r * r);
         }
     return static_cast<double>(pi_l * sum / (2 * panels));
+}
+
+/// ∫ k over the disk of a radius, by three-point Gauss quadrature on 256 panels, as above.
+template <class T, class K>
+[[nodiscard]] double disk_mass(const K& kernel, double radius) {
+    constexpr int panels = 256;
+    const double offset = std::sqrt(0.6);
+    const std::array<double, 3> nodes{-offset, 0, offset}, weights{5.0 / 9, 8.0 / 9, 5.0 / 9};
+    double sum = 0;
+    for (int i = 0; i < panels; ++i)
+        for (std::size_t k = 0; k < 3; ++k) {
+            const double r = radius * (2 * i + 1 + nodes[k]) / (2 * panels);
+            sum += weights[k] * double(kernel(static_cast<T>(r * r))) * r;
+        }
+    return std::numbers::pi * radius * sum / panels;
 }
 
 /// Checks a kernel that the library brings along or a user's own, smooth in r on [0, 1), for one scalar type.
@@ -64,6 +79,16 @@ void check_kernel_laws(const K& kernel = K{}) {
     CHECK(std::abs(disk_moment<T>(kernel, 0) - 1) <= 16 * epsilon);
     const double second = static_cast<double>(K::second_moment);
     CHECK(std::abs(disk_moment<T>(kernel, 1) - second) <= 16 * epsilon * second);
+
+    INFO("its mass within a radius: from nothing to all of it, and that of the integral");
+    CHECK(double(detail::mass_within(kernel, T(0))) == 0);
+    CHECK(std::abs(double(detail::mass_within(kernel, T(1))) - 1) <= 16 * epsilon);
+    CHECK(detail::mass_within(kernel, T(4)) == detail::mass_within(kernel, T(1)));
+    for (int i = 1; i < 16; ++i) {
+        const double radius = i / 16.0; // whose square is exact
+        CHECK(std::abs(double(detail::mass_within(kernel, T(radius * radius))) - disk_mass<T>(kernel, radius)) <=
+              16 * epsilon);
+    }
 
     // A box of side 1 has the variance 1/12 per axis, a disk of radius w with this kernel w² times the second moment.
     const double width = pixel_filter_width<K>;

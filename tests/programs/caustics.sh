@@ -129,6 +129,48 @@ at_least "$(value box.json 'caustic photons')" 1500 "box.gltf: caustic photons"
     fail "box.gltf with all that can be added"
 ! grep -q "assumed --" box.txt || fail "called assumed what was asked for"
 
+# Rooms, and light between diffuse surfaces: the same for any number of threads, with its account in the statistics.
+few="--photons 5000 --size 24"
+for layer in all direct caustics indirect; do
+    for threads in 1 3; do
+        # shellcheck disable=SC2086
+        "$caustics" cornell --layer $layer $few --threads $threads --output $layer$threads.pfm --json $layer.json \
+            >$layer.txt 2>errors.txt || fail "cornell, $layer: $(cat errors.txt)"
+    done
+    cmp ${layer}1.pfm ${layer}3.pfm || fail "cornell, $layer: the picture depends on the number of threads"
+done
+grep -q "disks' radius" indirect.txt || fail "cornell: does not say how wide the disks of indirect light are"
+! grep -q "disks' radius" caustics.txt || fail "cornell: indirect light among its caustics"
+indirect_part() {
+    sed -n '/"indirect": {/,/}/p' indirect.json >part-of.json
+    value part-of.json "$1"
+}
+emitted=$(indirect_part "flux emitted") accounted=$(indirect_part "flux accounted")
+at_most "($emitted - $accounted) / $emitted" 1e-5 "cornell: the account of indirect light"
+# A room has all bounces and a file none, unless one asks.
+# shellcheck disable=SC2086
+{
+    "$caustics" cornell --bounces all $few --output again.pfm >/dev/null
+    cmp again.pfm all1.pfm || fail "cornell: not all bounces"
+    "$caustics" cornell --bounces 0 $few --output again.pfm --json again.json >/dev/null
+    ! cmp again.pfm all1.pfm >/dev/null 2>&1 || fail "cornell: --bounces 0 changes nothing"
+    ! grep -q '"indirect"' again.json || fail "cornell: indirect light with --bounces 0"
+    "$caustics" box.gltf $few --output file.pfm >/dev/null
+    "$caustics" box.gltf --bounces 0 $few --output again.pfm >/dev/null
+    cmp file.pfm again.pfm || fail "box.gltf: bounces that nobody asked for"
+    "$caustics" box.gltf --bounces 2 $few --output again.pfm --json again.json >/dev/null
+    grep -q '"indirect"' again.json || fail "box.gltf: no indirect light with --bounces 2"
+}
+# Against the truth of the path tracer, for the same eye paths. Its mean is good to 0.3%.
+if ! is_sanitized && [ -x "$1/reference_path_tracer" ]; then
+    for scene in box cornell table; do
+        "$1/reference_path_tracer" $scene --layer indirect --size 24 --samples 768 --output truth.pfm >/dev/null
+        "$caustics" $scene --layer indirect --size 24 --reference truth.pfm --output m.pfm --json m.json >/dev/null
+        at_most "$(value m.json energy)" 0.04 "$scene: the energy of indirect light"
+        at_most "$(value m.json rel)" 0.19 "$scene: indirect light"
+    done
+fi
+
 # Ctrl-C writes the picture so far, whole, and says so by its status: 128 and the number of SIGINT. Photons so far stand
 # for all: the picture is as bright as the finished one.
 "$caustics" ring --photons 1e5 --size 64 --output whole.pfm --json whole.json >/dev/null
@@ -189,6 +231,13 @@ refuses "pixel-filter" ring --pixel-filter maybe
 refuses "reflections" ring --reflections two
 refuses "layer" box.gltf --layer glass
 refuses "layer" ring --layer direct
+refuses "bounces" ring --bounces 2
+refuses "bounces" box --bounces some
+refuses "specular" box --layer caustics
+refuses "specular" box --bounces 0
+refuses "view" cornell --view 0 1 0 1
+refuses "sun" cornell --sun 0,-1,0
+refuses "materials" cornell --fresnel on
 refuses "curved" ring --curved --first-order
 refuses "view" box.gltf --view 0 1 0 1
 refuses "materials" box.gltf --fresnel on

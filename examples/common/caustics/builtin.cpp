@@ -46,8 +46,8 @@ using Case = BuiltinCase<float, float>;
 } // namespace
 
 Rendering render_builtin(const Options& options) {
-    if (options.layer != Layer::all)
-        throw UsageError("--layer: a built-in case has caustics only");
+    if (options.layer != Layer::all || options.bounces.value_or(0) > 0)
+        throw UsageError("--layer, --bounces: a built-in case has caustics only; its light bounces nowhere");
     Stopwatch total, stopwatch;
     const Case builtin = builtin_case<float, float>(options.scene, options.fresnel).value();
     if (options.cross_validated && builtin.periodic)

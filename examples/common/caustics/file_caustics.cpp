@@ -7,12 +7,9 @@
 
 namespace nephroid::examples {
 
-void add_caustics_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const Options& options,
-                     ThreadExecutor& threads, Report& report, std::vector<glm::vec3>& pixels) {
+void add_caustics_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
+                     const Options& options, ThreadExecutor& threads, Report& report, std::vector<glm::vec3>& pixels) {
     using Vertex = EyeVertex<float, glm::vec3>;
-    Stopwatch stopwatch;
-    const EyePathMap map(eye.vertices, &Vertex::position, &Vertex::normal);
-    report.seconds.map = stopwatch.lap();
     const auto lights = photon_lights(lamps, scene);
     splat_caustics_timed<glm::vec3>(scene, lights, map, WalkLimits{}, options, false, threads, report,
                                     [&](std::size_t vertex, const glm::vec3& irradiance) {

@@ -1,20 +1,40 @@
 // SPDX-License-Identifier: MIT
-/// @file  The layers of a glTF scene's picture. Each has a source file of its own, because together they compile
-///        slowly.
+/// @file  The layers of the picture of a file or a room. Each has a source file of its own, because together they
+///        compile slowly.
 #pragma once
 
+#include "common/camera_from_gltf.hpp"
+#include "common/caustics/builtin.hpp"
 #include "common/caustics/report.hpp"
 #include "common/eye_paths.hpp"
 #include "common/image/image.hpp"
 #include "common/lamps.hpp"
+#include "common/stopwatch.hpp"
 
 #include "nephroid/execution/thread_executor.hpp"
+#include "nephroid/receiver/eye_path_map.hpp"
 
 namespace nephroid::examples {
 
 using FileScene = Scene<float, glm::vec3>;
 using FileLamps = Lamps<float, glm::vec3>;
 using FileEyePaths = EyePaths<float, glm::vec3>;
+using FileMap = EyePathMap<glm::vec3>;
+
+/// What a picture is made of.
+struct LayeredScene {
+    FileScene scene;
+    FileLamps lamps;
+    CameraDescription camera;
+    unsigned bounces = 0; ///< if the options ask for no other number
+};
+
+/// Renders linear radiance. If the options give no height, the camera does. Throws std::runtime_error with one line for
+/// a scene in which the options' layers have no light.
+///
+/// @param report  so far
+/// @param total   since the program began
+[[nodiscard]] Rendering render_layers(Options& options, const LayeredScene& seen, Report report, Stopwatch& total);
 
 /// Traces the camera's rays to vertices on which light falls, and to emitters.
 [[nodiscard]] FileEyePaths see_file_scene(const FileScene& scene, const FileLamps& lamps, const Camera<float>& camera,
@@ -26,7 +46,16 @@ using FileEyePaths = EyePaths<float, glm::vec3>;
                                                      ThreadExecutor& threads);
 
 /// Adds the caustics to a picture, and notes about them to a report.
-void add_caustics_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const Options& options,
-                     ThreadExecutor& threads, Report& report, std::vector<glm::vec3>& pixels);
+///
+/// @param map  of the vertices of `eye`
+void add_caustics_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
+                     const Options& options, ThreadExecutor& threads, Report& report, std::vector<glm::vec3>& pixels);
+
+/// Adds the light that at least one diffuse surface has scattered.
+///
+/// @param bounces  the most, off diffuse surfaces before the one that is seen
+void add_indirect_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
+                     const Options& options, unsigned bounces, ThreadExecutor& threads, Report& report,
+                     std::vector<glm::vec3>& pixels);
 
 } // namespace nephroid::examples

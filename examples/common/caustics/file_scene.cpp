@@ -4,6 +4,7 @@
 #include "common/caustics/assume.hpp"
 #include "common/caustics/file_layers.hpp"
 #include "common/image/read_environment.hpp"
+#include "common/rooms.hpp"
 #include "common/scene_from_gltf.hpp"
 #include "common/stopwatch.hpp"
 
@@ -21,33 +22,10 @@ using Color = glm::vec3;
 
 void check(const Options& options) {
     if (options.view)
-        throw UsageError("--view: is for the built-in cases; a file brings its camera");
+        throw UsageError("--view: is for the built-in cases; files and rooms bring their camera");
     if (options.fresnel || options.one_reflection)
-        throw UsageError("--fresnel and --reflections: are for the built-in cases; a file brings its materials");
-}
-
-void check(const GltfScene<float>& gltf, const Options& options) {
-    const auto fail = [&](const std::string& what) { throw std::runtime_error("'" + options.scene + "' " + what); };
-    if (gltf.scene.empty())
-        fail("has no triangles; add a mesh");
-    if (!gltf.scene.has_specular())
-        fail("has no specular surface, so it has no caustic; add glass (KHR_materials_transmission) or a smooth metal");
-}
-
-[[nodiscard]] double luminance(const Color& color) { return (double(color.x) + double(color.y) + double(color.z)) / 3; }
-
-/// The exposure at which nine in ten of the pixels that are not black are below 0.7: caustics may be clipped, not
-/// walls.
-[[nodiscard]] double exposure_of(const std::vector<Color>& pixels) {
-    std::vector<double> brightness;
-    for (const Color& pixel : pixels)
-        if (const double b = luminance(pixel); b > 0)
-            brightness.push_back(b);
-    if (brightness.empty())
-        return 1;
-    const auto bright = brightness.begin() + static_cast<std::ptrdiff_t>(brightness.size() * 9 / 10);
-    std::nth_element(brightness.begin(), bright, brightness.end());
-    return 0.7 / *bright;
+        throw UsageError(
+            "--fresnel and --reflections: are for the built-in cases; files and rooms bring their materials");
 }
 
 /// Reads the file. The reader's warnings become notes, even if the file cannot be read.
@@ -105,30 +83,19 @@ Rendering render_file(Options& options) {
         report.note(gltf.warnings[i]);
     if (options.environment)
         gltf.lamps.environments.push_back(environment_of(*options.environment));
-    check(gltf, options);
-
+    if (gltf.scene.empty())
+        throw std::runtime_error("'" + options.scene + "' has no triangles; add a mesh");
     const CameraDescription view = camera_of(description, additions, gltf.scene, options, report);
-    if (!options.height_given)
-        options.height = static_cast<std::size_t>((std::max)(1.0, std::round(double(options.width) / aspect_of(view))));
-    const auto camera = camera_from<float>(view, options.width, options.height);
-    ThreadExecutor threads(options.threads);
-    report.threads = threads.threads();
-    Stopwatch stopwatch;
-    const FileEyePaths eye = see_file_scene(gltf.scene, gltf.lamps, camera, options, threads);
-    report.eye_vertices = eye.vertices.size();
-    report.seconds.eye_paths = stopwatch.lap();
+    return render_layers(options, {std::move(gltf.scene), std::move(gltf.lamps), view}, std::move(report), total);
+}
 
-    Image<Color> picture(options.width, options.height, Color(0));
-    if (options.layer != Layer::caustics) {
-        picture.pixels = direct_layer_of(gltf.scene, gltf.lamps, eye, options, threads);
-        report.seconds.direct = stopwatch.lap();
-    }
-    if (options.layer != Layer::direct)
-        add_caustics_of(gltf.scene, gltf.lamps, eye, options, threads, report, picture.pixels);
-    report.seconds.total = total.lap();
-
-    const double exposure = exposure_of(picture.pixels);
-    return {Samples(picture), exposure, std::move(report)};
+Rendering render_room(Options& options) {
+    check(options);
+    if (options.sun || options.ground || options.environment)
+        throw UsageError("--sun, --ground and --environment: are for files; a room has a lamp and a floor");
+    Stopwatch total;
+    auto room = built_in_room<float>(options.scene).value();
+    return render_layers(options, {std::move(room.scene), std::move(room.lamps), room.camera, all_bounces}, {}, total);
 }
 
 } // namespace nephroid::examples

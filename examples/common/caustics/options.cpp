@@ -2,6 +2,7 @@
 #include "common/caustics/options.hpp"
 
 #include "common/builtin_film.hpp"
+#include "common/rooms.hpp"
 
 #include "nephroid/version.hpp"
 
@@ -22,7 +23,6 @@ const Names<KernelKind> kernels = {{"biweight", KernelKind::biweight},
                                    {"cone", KernelKind::cone},
                                    {"uniform", KernelKind::uniform},
                                    {"gaussian", KernelKind::gaussian}};
-const Names<Layer> layers = {{"all", Layer::all}, {"caustics", Layer::caustics}, {"direct", Layer::direct}};
 const Names<bool> switches = {{"on", true}, {"off", false}};
 const Names<bool> reflections = {{"one", true}, {"any", false}};
 
@@ -113,11 +113,15 @@ const char* name_of(KernelKind kernel) { return name_in(kernels, kernel); }
 std::optional<Options> read_options(int argc, const char* const* argv) {
     Options options;
     CLI::App app("Renders caustics by photon differential splatting and says how wrong they are.", "caustics");
-    app.add_option("scene", options.scene, "A built-in case (" + builtin_names() + ") or a .glb or .gltf file")
+    app.add_option("scene", options.scene,
+                   "A built-in case (" + builtin_names() + "), a room (" + names_of_rooms() +
+                       ") or a .glb or .gltf file")
         ->required();
     app.set_version_flag("--version", version_text());
     std::string photons = "20000", emit, size = "512", seed = "0";
-    app.add_option("--photons", photons, "Caustic photons wanted [20000]; a pilot pass finds how many to emit");
+    app.add_option("--photons", photons,
+                   "Caustic photons wanted [20000]; a pilot pass finds how many to emit. As many are emitted for "
+                   "light between diffuse surfaces");
     app.add_option("--emit", emit, "Photons to emit, instead of --photons");
     std::string smoothing = "auto";
     app.add_option(
@@ -131,7 +135,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
                    "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
     app.add_option("--samples", options.samples, "Eye paths per pixel [1]");
     std::string kernel = "biweight", sequence = "halton", filter = "on", fresnel = "off", reflection = "any";
-    std::string layer = "all", output, json, reference;
+    std::string layer = "all", bounces, output, json, reference;
     app.add_option("--kernel", kernel, "biweight|epanechnikov|cone|uniform|gaussian [biweight]");
     app.add_option("--sequence", sequence, "halton|sobol|r2|random [halton]");
     app.add_option("--seed", seed, "Of the sequence [0]");
@@ -141,7 +145,10 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     app.add_option("--reflections", reflection, "one|any: of the ring [any]");
     std::vector<double> view;
     app.add_option("--view", view, "x_min x_max y_min y_max: the film of a built-in case, on the floor")->expected(4);
-    app.add_option("--layer", layer, "all|caustics|direct: of a file's picture [all]");
+    app.add_option("--layer", layer, "all|caustics|direct|indirect: of a file's or a room's picture [all]");
+    app.add_option("--bounces", bounces,
+                   "all or a number: of light between diffuse surfaces, before the one that is seen [all; of a file 0, "
+                   "but for --layer indirect]");
     std::string sun, ground, environment;
     app.add_option("--sun", sun,
                    "X,Y,Z[,SIZE]: add one to a file, with the direction that its light goes in (y is upwards) and its "
@@ -179,7 +186,9 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     options.pixel_filter = chosen("--pixel-filter", filter, switches);
     options.fresnel = chosen("--fresnel", fresnel, switches);
     options.one_reflection = chosen("--reflections", reflection, reflections);
-    options.layer = chosen("--layer", layer, layers);
+    if (!bounces.empty())
+        options.bounces = bounces_in(bounces);
+    options.layer = chosen("--layer", layer, layer_names());
     if (!view.empty())
         options.view = {view[0], view[1], view[2], view[3]};
     options.output = !output.empty() ? output : std::filesystem::path(options.scene).stem().string() + ".png";

@@ -4,6 +4,7 @@
 
 #include "common/any_sequence.hpp"
 #include "common/command_line.hpp"
+#include "common/layer.hpp"
 
 #include <array>
 #include <cstdint>
@@ -14,7 +15,6 @@
 namespace nephroid::examples {
 
 enum class KernelKind { biweight, epanechnikov, cone, uniform, gaussian };
-enum class Layer { all, caustics, direct };
 
 /// A sun that is added to a file's scene.
 struct Sun {
@@ -23,7 +23,7 @@ struct Sun {
 };
 
 struct Options {
-    std::string scene;                     ///< the name of a built-in case or a .glb or .gltf file
+    std::string scene;                     ///< the name of a built-in case or a room, or a .glb or .gltf file
     std::uint64_t photons = 20'000;        ///< caustic photons wanted
     std::optional<std::uint64_t> emit;     ///< photons to emit, instead
     std::optional<double> smoothing;       ///< s; nothing: chosen for each photon
@@ -41,7 +41,8 @@ struct Options {
     bool fresnel = false;                           ///< of the built-in cases; materials of a file always have it
     bool one_reflection = false;                    ///< of the ring: discard light that is reflected twice
     std::optional<std::array<double, 4>> view;      ///< x_min, x_max, y_min, y_max of a built-in case's film
-    Layer layer = Layer::all;                       ///< of a file's picture
+    Layer layer = Layer::all;                       ///< of a file's or a room's picture
+    std::optional<unsigned> bounces;                ///< of it, off diffuse surfaces; otherwise the scene's default
     std::optional<Sun> sun;                         ///< added to a file's scene
     std::optional<double> ground;                   ///< the albedo of one that is added to a file's scene
     std::optional<std::string> environment;         ///< around a file's scene: "constant" or a picture's path

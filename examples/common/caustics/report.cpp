@@ -38,9 +38,20 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
 }
 
 [[nodiscard]] std::vector<std::pair<std::string, double>> passes(const Timings& seconds) {
-    return {{"eye paths", seconds.eye_paths}, {"eye path map", seconds.map}, {"pilot", seconds.pilot},
-            {"trace", seconds.trace},         {"footprints", seconds.fit},   {"splat", seconds.splat},
-            {"direct light", seconds.direct}, {"other", seconds.other()},    {"total", seconds.total}};
+    return {{"eye paths", seconds.eye_paths}, {"eye path map", seconds.map},        {"pilot", seconds.pilot},
+            {"trace", seconds.trace},         {"footprints", seconds.fit},          {"splat", seconds.splat},
+            {"direct light", seconds.direct}, {"indirect light", seconds.indirect}, {"other", seconds.other()},
+            {"total", seconds.total}};
+}
+
+[[nodiscard]] std::string indirect_json(const GlobalSplats& indirect) {
+    const Statistics& statistics = indirect.statistics;
+    return json_object({{"photons emitted", std::to_string(statistics.emitted.photons)},
+                        {"arrivals", std::to_string(statistics[Arrival::indirect].photons)},
+                        {"radius", json_number(indirect.radius)},
+                        {"flux emitted", json_number(statistics.emitted.flux)},
+                        {"flux accounted", json_number(statistics.accounted_flux())}},
+                       "  ");
 }
 
 } // namespace
@@ -75,6 +86,12 @@ void print_table(std::ostream& out, const Options& options, const Report& report
         line(out, "as published", grouped(statistics.splatted_as_published));
     if (statistics.corrected_normals > 0)
         line(out, "normals corrected", grouped(statistics.corrected_normals));
+
+    if (report.indirect) {
+        line(out, "indirect photons", grouped(report.indirect->statistics.emitted.photons));
+        line(out, "their arrivals", grouped(report.indirect->statistics[Arrival::indirect].photons));
+        line(out, "their disks' radius", text("%.4g", report.indirect->radius));
+    }
 
     out << "seconds\n";
     for (const auto& [name, seconds] : passes(report.seconds))
@@ -136,6 +153,8 @@ std::string json_text(const Options& options, const Report& report) {
            {"seconds", json_object(seconds, "  ")},
            {"interrupted", report.interrupted ? "true" : "false"},
            {"notes", json_array(report.notes)}};
+    if (report.indirect)
+        top.push_back({"indirect", indirect_json(*report.indirect)});
     if (report.errors)
         top.push_back({"errors", json_object({{"rel", json_number(report.errors->relative)},
                                               {"clipped RMSE", json_number(report.errors->rmse)},

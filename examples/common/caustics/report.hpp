@@ -5,6 +5,7 @@
 #include "common/caustics/options.hpp"
 #include "common/errors.hpp"
 
+#include "nephroid/bounce/splat_global.hpp"
 #include "nephroid/transport/account.hpp"
 
 #include <iosfwd>
@@ -14,12 +15,15 @@ namespace nephroid::examples {
 
 /// Seconds of wall clock for each pass; `other` is the time between passes.
 struct Timings {
-    double eye_paths = 0, map = 0, pilot = 0, trace = 0, fit = 0, splat = 0, direct = 0, total = 0;
-    [[nodiscard]] double other() const { return total - eye_paths - map - pilot - trace - fit - splat - direct; }
+    double eye_paths = 0, map = 0, pilot = 0, trace = 0, fit = 0, splat = 0, direct = 0, indirect = 0, total = 0;
+    [[nodiscard]] double other() const {
+        return total - eye_paths - map - pilot - trace - fit - splat - direct - indirect;
+    }
 };
 
 struct Report {
-    Statistics statistics;
+    Statistics statistics; ///< of caustics
+    std::optional<GlobalSplats> indirect;
     Timings seconds;
     std::size_t eye_vertices = 0;
     unsigned threads = 1;

@@ -47,7 +47,7 @@ public:
             if (!hit)
                 break;
             const Bounce<double, double> bounce = scene_.scatter(*hit, direction, sampler);
-            if (bounce.event == Event::absorb || bounce.event == Event::deposit)
+            if (bounce.event == Event::absorb || bounce.event == Event::diffuse)
                 break;
             seen.met_specular = true;
             if (events == specular_events_)

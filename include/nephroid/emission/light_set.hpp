@@ -4,6 +4,7 @@
 
 #include "nephroid/emission/emission_sample.hpp"
 #include "nephroid/emission/light.hpp"
+#include "nephroid/emission/target.hpp"
 #include "nephroid/vector/error.hpp"
 
 #include <algorithm>
@@ -106,6 +107,15 @@ public:
                 detail::draw_coordinates(light, samples);
             },
             lights_[chosen]);
+    }
+
+    /// The same lights, all aimed at what lies within a sphere.
+    [[nodiscard]] LightSet aimed_at(const BoundingSphere<vector>& target) const
+        requires(AimsAt<First, vector>&&...&& AimsAt<Others, vector>) {
+        std::vector<AnyLight> aimed;
+        for (const AnyLight& light : lights_)
+            std::visit([&](const auto& one) { aimed.push_back(one.aimed_at(target)); }, light);
+        return LightSet(std::move(aimed));
     }
 
     /// The sum of the lights' powers.

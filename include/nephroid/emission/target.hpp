@@ -6,6 +6,7 @@
 #include "nephroid/vector/error.hpp"
 
 #include <algorithm>
+#include <concepts>
 #include <limits>
 #include <ranges>
 #include <type_traits>
@@ -18,6 +19,12 @@ template <Vector3 V>
 struct BoundingSphere {
     V centre;
     scalar_t<V> radius; ///< world units, > 0
+};
+
+/// Optional: `light.aimed_at(sphere)` returns the same light, aimed at a sphere. All lights that come along have it.
+template <class L, class V>
+concept AimsAt = requires(const L& light, const BoundingSphere<V>& target) {
+    { light.aimed_at(target) } -> std::same_as<L>;
 };
 
 /// A sphere that contains all points. Its centre is the centre of their box, and its radius is a few units in the last

@@ -5,7 +5,9 @@
 ///   - `operator()(r2)` for the squared radius r2 = |x|² >= 0: k >= 0, zero for r2 >= 1, and ∫ k over the disk = 1.
 ///     It should not branch (use `keep_if`), because it is called in a loop that the compiler vectorises;
 ///   - `second_moment`: ∫ x² k over the disk, the variance along one axis. The pixel filter and second order need
-///     it.
+///     it;
+///   - `mass_within(r2)`, optional: ∫ k over the disk of squared radius r2 in [0, 1]. Without it the integral is
+///     computed by quadrature (footprint/kernel_mass.hpp).
 ///
 /// ```cpp
 /// struct Triweight { // 4/π (1 − r²)³
@@ -60,6 +62,11 @@ struct BiweightKernel {
         const T rest = keep_if(radius2 < T(1), T(T(1) - radius2));
         return T(3) / pi<T> * rest * rest;
     }
+    template <Scalar T>
+    [[nodiscard]] constexpr T mass_within(const T& radius2) const {
+        const T rest = T(1) - radius2;
+        return T(1) - rest * rest * rest;
+    }
 };
 
 /// 2/π (1 − r²).
@@ -68,6 +75,10 @@ struct EpanechnikovKernel {
     template <Scalar T>
     [[nodiscard]] constexpr T operator()(const T& radius2) const {
         return T(2) / pi<T> * keep_if(radius2 < T(1), T(T(1) - radius2));
+    }
+    template <Scalar T>
+    [[nodiscard]] constexpr T mass_within(const T& radius2) const {
+        return radius2 * (T(2) - radius2);
     }
 };
 
@@ -78,6 +89,10 @@ struct ConeKernel {
     [[nodiscard]] T operator()(const T& radius2) const {
         return T(3) / pi<T> * keep_if(radius2 < T(1), T(T(1) - sqrt(radius2)));
     }
+    template <Scalar T>
+    [[nodiscard]] T mass_within(const T& radius2) const {
+        return radius2 * (T(3) - T(2) * sqrt(radius2));
+    }
 };
 
 /// 1/π.
@@ -86,6 +101,10 @@ struct UniformKernel {
     template <Scalar T>
     [[nodiscard]] constexpr T operator()(const T& radius2) const {
         return keep_if(radius2 < T(1), T(T(1) / pi<T>));
+    }
+    template <Scalar T>
+    [[nodiscard]] constexpr T mass_within(const T& radius2) const {
+        return radius2;
     }
 };
 
@@ -98,6 +117,11 @@ struct TruncatedGaussianKernel {
     [[nodiscard]] T operator()(const T& radius2) const {
         using std::exp;
         return keep_if(radius2 < T(1), T(T(9.0 / (2 * (1.0 - cut))) / pi<T> * exp(T(-4.5) * radius2)));
+    }
+    template <Scalar T>
+    [[nodiscard]] T mass_within(const T& radius2) const {
+        using std::exp;
+        return (T(1) - exp(T(-4.5) * radius2)) * T(1 / (1.0 - cut));
     }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// @file  The share of a disk that lies on the surface: less than all of it at a surface's border, where an estimate
-///        that divides by the whole disk is too dark.
+///        that divides by the whole disk is too dark. Told by the caller here, and by the renderer's rays in
+///        gather/free_distance_coverage.hpp.
 ///
 /// ```cpp
 /// const auto on_table = [](const V& p) { return p.x >= 0 && p.x <= 1 && p.y >= 0 && p.y <= 2; };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/transport/account.hpp"
+#include "nephroid/vector/text.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -39,7 +40,11 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
         if (share >= least && share > 0)
             found.push_back({share, percent(share) + " of " + what});
     };
-    if (s.specular_events == 0) {
+    const bool bounces = s.diffuse_events > 0; // then light needs no mirror on its way
+    if (bounces) {
+        add(part_of(double(s.escaped_first), emitted), 0.9,
+            "the photons met nothing: does the lamp stand in the scene and shine into it?");
+    } else if (s.specular_events == 0) {
         const double opaque = part_of(double(s.opaque_first), emitted);
         found.push_back({1, opaque >= 0.5
                                 ? percent(opaque) + " of the photons ended at the first surface they met, and none met "
@@ -52,7 +57,13 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
             "the photons missed the mirrors and glass, or ended on a diffuse part of them: if they missed, give the "
             "light a narrower target, a sphere about them, or several (emission/separate_targets.hpp)");
     }
-    add(part_of(double(s[Fate::invalid].photons), emitted), 1e-3,
+    if (s.invalid_albedos > 0)
+        found.push_back({part_of(double(s.invalid_albedos), emitted),
+                         percent(part_of(double(s.invalid_albedos), emitted)) +
+                             " of the photons met an albedo that cannot be, first of " + text_of(s.invalid_albedo) +
+                             " on surface " + std::to_string(s.invalid_albedo_surface) +
+                             ": the `weight` of Event::diffuse must be in [0, 1] in each band"});
+    add(part_of(double(s[Fate::invalid].photons - s.invalid_albedos), emitted), 1e-3,
         "the photons are invalid: a number of the hit or of `scatter` was not finite, a normal or direction not unit "
         "(the photon needs both to 0.2%), a distance or weight negative, `eta` not positive, or the curvature's "
         "probes found nothing (`tracer_epsilon`)");
@@ -60,8 +71,10 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
         "the rays from a mirror or glass hit something where they began: surfaces touch there, or the renderer found "
         "the same surface again and `position_error` is too small for its tracer");
     add(part_of(s[Fate::terminated].flux, s.emitted.flux), 0.05,
-        "the light was terminated on long paths: raise `WalkLimits::specular_events`, or look for rays that hit the "
-        "surface they leave");
+        bounces ? "the light was terminated on long paths: a closed scene of albedos near 1 holds it that long; raise "
+                  "`WalkLimits::bounces`, or look for rays that hit the surface they leave"
+                : "the light was terminated on long paths: raise `WalkLimits::specular_events`, or look for rays that "
+                  "hit the surface they leave");
     add(part_of(double(s.corrected_normals), double(s.specular_events)), 0.05,
         "the reflections and refractions used the geometric normal, as the shading normal would have sent the ray "
         "through the surface: check that both are on one side");
@@ -116,7 +129,8 @@ inline void look_at_caustics(const Statistics& s, std::vector<Finding>& found) {
         found.push_back({1, "the light emits nothing: its power is 0 towards its target"});
     else {
         detail::look_at_paths(statistics, found);
-        detail::look_at_caustics(statistics, found);
+        if (statistics.diffuse_events == 0)
+            detail::look_at_caustics(statistics, found);
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.share > b.share; });
     std::vector<std::string> sentences;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace nephroid::detail {
@@ -45,6 +46,31 @@ namespace nephroid::detail {
     return error + correlation / (1 - correlation) * difference;
 }
 
+/// The step at which an error is least, as a real number: the minimum of the parabola through three steps. Steps are
+/// tried from 0 on, until two in a row were worse.
+///
+/// @param error_at    error_at(step) for a whole step
+/// @param most_steps  >= 2
+/// @return  nothing if the error does not depend on the step, or is no number
+template <class ErrorAt>
+[[nodiscard]] std::optional<double> best_step(const ErrorAt& error_at, std::size_t most_steps) {
+    std::vector<double> error;
+    std::size_t best = 0;
+    for (std::size_t step = 0; step < most_steps && step <= best + 2; ++step) {
+        error.push_back(error_at(step));
+        if (error[step] < error[best])
+            best = step;
+    }
+    if (!isfinite(error[best]) || error[0] == error[1])
+        return std::nullopt;
+    double step = double(best);
+    if (best > 0 && best + 1 < error.size()) {
+        const double below = error[best - 1] - error[best], above = error[best + 1] - error[best];
+        step += below + above > 0 ? 0.5 * (below - above) / (below + above) : 0;
+    }
+    return step;
+}
+
 /// Chooses the smoothing of a pass.
 ///
 /// @param sums        provides the receiver and the response
@@ -73,21 +99,14 @@ template <class V, class F, class R, class Policies, class DepositOf, class E>
         first.push_back(splat(s_of(double(step))));
     const double order = stratified ? noise_order(first[noise_step]) : 1;
 
-    std::vector<double> error;
-    std::size_t best = 0;
-    for (std::size_t step = 0; step < most_steps && step <= best + 2; ++step) { // ends once two in a row were worse
-        error.push_back(validated_error(step <= noise_step ? first[step] : splat(s_of(double(step))), first[0], order));
-        if (error[step] < error[best])
-            best = step;
-    }
-    if (!isfinite(order) || !isfinite(error[best]) || error[0] == error[1]) // no photon in view, or invalid sums
+    const std::optional<double> best = best_step(
+        [&](std::size_t step) {
+            return validated_error(step <= noise_step ? first[step] : splat(s_of(double(step))), first[0], order);
+        },
+        most_steps);
+    if (!isfinite(order) || !best) // no photon in view, or invalid sums
         return default_smoothing;
-    double step = double(best);
-    if (best > 0 && best + 1 < error.size()) { // the minimum of the parabola through three errors
-        const double below = error[best - 1] - error[best], above = error[best + 1] - error[best];
-        step += below + above > 0 ? 0.5 * (below - above) / (below + above) : 0;
-    }
-    return s_of(step) * std::pow(photons / double(count), 1 / (2 + order));
+    return s_of(*best) * std::pow(photons / double(count), 1 / (2 + order));
 }
 
 } // namespace nephroid::detail

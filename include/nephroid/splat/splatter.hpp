@@ -63,11 +63,19 @@ public:
         const std::size_t groups_per_task = std::clamp<std::size_t>(bins_.groups() / 256, 1, 4);
         for_each_index(executor, bins_.groups(), groups_per_task, [&](std::size_t group) {
             for (const BinnedSplat<V, F>& binned : bins_[group])
-                add_splat(*binned.splat, binned.meeting, binned.leaf, policies_.kernel, *sums_);
+                add(binned);
         });
     }
 
 private:
+    /// Adds one splat to a leaf, as the policies say if they have a way of their own.
+    void add(const BinnedSplat<V, F>& binned) {
+        if constexpr (requires { policies_.add(*binned.splat, binned.meeting, binned.leaf, *sums_); })
+            policies_.add(*binned.splat, binned.meeting, binned.leaf, *sums_);
+        else
+            add_splat(*binned.splat, binned.meeting, binned.leaf, policies_.kernel, *sums_);
+    }
+
     template <std::size_t N>
     [[nodiscard]] static double power(const Deposit<V, F, N>& deposit) {
         return double(flux_traits<F>::power(deposit.flux));

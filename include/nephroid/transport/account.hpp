@@ -27,6 +27,15 @@ inline constexpr std::size_t fate_count = 9;
 inline constexpr std::array<const char*, fate_count> fate_names = {
     "splatted", "unseen", "direct", "absorbed", "escaped", "terminated", "collapsed", "excessive", "invalid"};
 
+/// Which way light came to a diffuse surface.
+enum class Arrival : unsigned char {
+    direct,   ///< straight from the lamp
+    caustic,  ///< through mirrors and glass only
+    indirect, ///< from another diffuse surface, with or without mirrors and glass before and after it
+};
+
+inline constexpr std::size_t arrival_count = 3;
+
 /// A number of photons and their flux, in the unit of flux_traits<F>::power. The flux is a compensated sum [Kahan
 /// 1965], as exact after 10⁹ photons as after one (except with -ffast-math, which drops the compensation).
 struct Tally {
@@ -53,8 +62,13 @@ struct Tally {
 struct Statistics {
     Tally emitted;
     std::array<Tally, fate_count> fates{};
+    /// What diffuse surfaces received, if photons go on from them (`follows_bounces` of a visitor). That is no fate: a
+    /// photon may arrive many times. On average the sum of received · (1 − albedo) is what these surfaces absorbed.
+    std::array<Tally, arrival_count> received{};
     std::uint64_t rays = 0;            ///< traced
     std::uint64_t specular_events = 0; ///< reflections and refractions
+    std::uint64_t diffuse_events = 0;  ///< arrivals at surfaces that may send light on (Event::diffuse)
+    std::uint64_t bounces = 0;         ///< photons that these surfaces sent on
     std::uint64_t branches = 0;        ///< additional ways, if all ways are followed: the fates count this many photons
                                        ///< more than were emitted
     std::uint64_t corrected_normals = 0; ///< events that used the geometric normal, because the shading normal sent the
@@ -67,8 +81,12 @@ struct Statistics {
     std::uint64_t splatted_as_published = 0; ///< photons that second order left unshifted, with `default_smoothing`:
                                              ///< neighbours contradicted the fit, or an area light had too few
     std::uint64_t bounded_footprints = 0;    ///< footprints that the excess or the collapse policy changed
+    std::uint64_t invalid_albedos = 0; ///< photons that met an albedo that is negative, above 1 in a band, or no number
+    double invalid_albedo = 0; ///< the first of these albedos, as the power of the flux it left over that before
+    std::uint64_t invalid_albedo_surface = 0; ///< `surface` of the hit there, if hits have it
 
     [[nodiscard]] const Tally& operator[](Fate fate) const { return fates[std::size_t(fate)]; }
+    [[nodiscard]] const Tally& operator[](Arrival arrival) const { return received[std::size_t(arrival)]; }
 
     /// Photons that reached a diffuse surface by way of a specular one: the papers' n.
     [[nodiscard]] std::uint64_t caustic_photons() const {
@@ -90,6 +108,13 @@ struct Statistics {
         tally.add(flux);
     }
 
+    /// Books the arrival of a photon at a diffuse surface.
+    void arrive(Arrival arrival, double flux) {
+        Tally& tally = received[std::size_t(arrival)];
+        ++tally.photons;
+        tally.add(flux);
+    }
+
     /// Books flux that a photon loses while it goes on.
     void lose(Fate fate, double flux) { fates[std::size_t(fate)].add(flux); }
 
@@ -97,8 +122,12 @@ struct Statistics {
         emitted += other.emitted;
         for (std::size_t i = 0; i < fate_count; ++i)
             fates[i] += other.fates[i];
+        for (std::size_t i = 0; i < arrival_count; ++i)
+            received[i] += other.received[i];
         rays += other.rays;
         specular_events += other.specular_events;
+        diffuse_events += other.diffuse_events;
+        bounces += other.bounces;
         branches += other.branches;
         corrected_normals += other.corrected_normals;
         hits_at_start += other.hits_at_start;
@@ -107,6 +136,11 @@ struct Statistics {
         bounded_shifts += other.bounded_shifts;
         splatted_as_published += other.splatted_as_published;
         bounded_footprints += other.bounded_footprints;
+        if (invalid_albedos == 0) {
+            invalid_albedo = other.invalid_albedo;
+            invalid_albedo_surface = other.invalid_albedo_surface;
+        }
+        invalid_albedos += other.invalid_albedos;
         return *this;
     }
 };

@@ -13,6 +13,8 @@ enum class Event : unsigned char {
     refract, ///< into the other medium; beyond the critical angle the walk reflects instead
     deposit, ///< the surface is diffuse (or glossy): the photon is deposited, and ends unless a visitor sends it on
     pass,    ///< light does not notice this surface, such as one inside of water: the photon goes on, into `medium`
+    diffuse, ///< as deposit, and the surface scatters the share `weight`, its albedo in [0, 1], in all directions.
+             ///< Where light between diffuse surfaces is not asked for, the photon ends
 };
 
 /// The result of a scene's `scatter`. Your own type with these members will do as well. `eta` is only read for
@@ -34,11 +36,13 @@ enum class Event : unsigned char {
 template <Flux F, Scalar T>
 struct Scattering {
     Event event = Event::absorb;
-    F weight = flux_traits<F>::zero(); ///< the flux is multiplied by this: reflectance over the event's probability
+    F weight = flux_traits<F>::zero(); ///< the flux is multiplied by this: reflectance over the event's probability. Of
+                                       ///< Event::diffuse it is the albedo, of Event::deposit nothing
     T eta = T(1);                      ///< n₁/n₂, the index on the ray's side over that on the other side
 
     [[nodiscard]] static Scattering absorb() { return {}; }
     [[nodiscard]] static Scattering deposit() { return {Event::deposit, flux_traits<F>::zero(), T(1)}; }
+    [[nodiscard]] static Scattering diffuse(const F& albedo) { return {Event::diffuse, albedo, T(1)}; }
     [[nodiscard]] static Scattering reflect(const F& weight) { return {Event::reflect, weight, T(1)}; }
     [[nodiscard]] static Scattering refract(const F& weight, T eta) { return {Event::refract, weight, eta}; }
 };
@@ -53,6 +57,7 @@ struct MirrorScattering {
 
     [[nodiscard]] static MirrorScattering absorb() { return {}; }
     [[nodiscard]] static MirrorScattering deposit() { return {Event::deposit, flux_traits<F>::zero()}; }
+    [[nodiscard]] static MirrorScattering diffuse(const F& albedo) { return {Event::diffuse, albedo}; }
     [[nodiscard]] static MirrorScattering reflect(const F& weight) { return {Event::reflect, weight}; }
 };
 

@@ -2,7 +2,7 @@
 /// @file  What a walk remembers of its path: nothing, or a signature of the surfaces that the path met.
 #pragma once
 
-#include "nephroid/vector/language.hpp"
+#include "nephroid/transport/account.hpp"
 
 #include <concepts>
 #include <cstdint>
@@ -59,6 +59,10 @@ struct WalkedPath {
 
     /// Whether the photon has come straight from the lamp.
     [[nodiscard]] bool is_direct() const { return specular_events == 0 && bounces == 0; }
+    /// As what its light arrives where it is.
+    [[nodiscard]] Arrival arrival() const {
+        return bounces > 0 ? Arrival::indirect : specular_events > 0 ? Arrival::caustic : Arrival::direct;
+    }
 };
 
 } // namespace nephroid

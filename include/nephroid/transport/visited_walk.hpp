@@ -4,12 +4,13 @@
 #pragma once
 
 #include "nephroid/transport/account.hpp"
+#include "nephroid/transport/diffuse_surface.hpp"
 #include "nephroid/transport/pending_ways.hpp"
 #include "nephroid/transport/photon_steps.hpp"
 #include "nephroid/transport/visit_reporter.hpp"
 #include "nephroid/transport/visitor.hpp"
 #include "nephroid/transport/walk_limits.hpp"
-#include "nephroid/vector/in_place.hpp"
+#include "nephroid/transport/ways.hpp"
 
 #include <cstddef>
 #include <optional>
@@ -110,7 +111,8 @@ private:
             leave(hit, true);
             return true;
         }
-        const bool is_opaque = scattering.event == Event::absorb || scattering.event == Event::deposit;
+        const bool is_diffuse = scattering.event == Event::deposit || scattering.event == Event::diffuse;
+        const bool is_opaque = is_diffuse || scattering.event == Event::absorb;
         if (steps_.ray_start().began_here()) {
             // A lamp may stand in the scene; its photons start on its surface and leave that first.
             if (path().is_direct() && passed_ == 0 && (is_opaque || !steps_.is_in_front_of(hit)) &&
@@ -126,8 +128,8 @@ private:
             ++account_.opaque_first;
         if (scattering.event == Event::absorb)
             return steps_.end(Fate::absorbed);
-        if (scattering.event == Event::deposit)
-            return deposit(hit, kept);
+        if (is_diffuse)
+            return deposit(hit, scattering, kept);
         if (path().specular_events == limits_.specular_events)
             return steps_.end(Fate::terminated);
         const bool from_front = steps_.is_in_front_of(hit);
@@ -146,35 +148,14 @@ private:
         return true;
     }
 
-    [[nodiscard]] bool deposit(const H& hit, Kept& kept) {
-        if constexpr (!wants_direct_light<Visitor>)
-            if (path().is_direct())
-                return steps_.end(Fate::direct);
-        reporter_.surface(hit, steps_.is_in_front_of(hit), false);
-        if constexpr (SendsPhotonsOn<Visitor, V, F, N>) {
-            const std::optional<Photon<V, F, N>> onwards = reporter_.deposit(steps_.deposit(hit));
-            return onwards && go_on_with(*onwards, hit);
-        } else if constexpr (VisitsDeposits<Visitor, V, F, N>) {
-            reporter_.deposit(steps_.deposit(hit));
-        } else {
-            kept.emplace(InPlace{[&] { return steps_.deposit(hit); }});
-        }
-        return false;
-    }
-
-    /// Goes on from a diffuse surface with the photon that the visitor returned.
-    [[nodiscard]] bool go_on_with(const Photon<V, F, N>& onwards, const H& hit) {
-        const bool from_front = steps_.is_in_front_of(hit);
-        const double arrived = steps_.power(steps_.photon().flux), carried = steps_.power(onwards.flux);
-        if (!isfinite(carried))
-            return steps_.end(Fate::invalid);
-        account_.lose(Fate::absorbed, arrived - carried);
-        steps_.continue_as(onwards, steps_.medium());
-        if (path().bounces == limits_.bounces)
-            return steps_.end(Fate::terminated);
-        ++path().bounces;
-        leave(hit, steps_.is_in_front_of(hit) == from_front);
-        return true;
+    /// Leaves a deposit on a diffuse surface.
+    template <class Scattering>
+    [[nodiscard]] bool deposit(const H& hit, const Scattering& scattering, Kept& kept) {
+        const DiffuseSurface<S, V, F, N, Visitor> surface(steps_, reporter_, limits_, account_);
+        const Departing departing = surface.meet(hit, scattering, sampler_, kept);
+        if (departing.goes_on)
+            leave(hit, departing.passes);
+        return departing.goes_on;
     }
 
     void leave(const H& hit, bool passed) {

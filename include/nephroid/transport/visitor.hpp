@@ -5,8 +5,8 @@
 #include "nephroid/emission/photon.hpp"
 #include "nephroid/transport/deposit.hpp"
 #include "nephroid/transport/flight.hpp"
+#include "nephroid/transport/scene.hpp"
 #include "nephroid/transport/trail.hpp"
-#include "nephroid/transport/ways.hpp"
 
 #include <concepts>
 #include <cstddef>
@@ -26,7 +26,11 @@ namespace nephroid {
 /// - `using trail = PathSignature`, or a type like it: what the walk remembers of each path. It starts empty at the
 ///   lamp, is copied where ways part, and comes with each deposit as `path.trail`
 /// - `static constexpr bool wants_direct_light = true`: deposits straight from the lamp are visited too; otherwise the
-///   walk books them as Fate::direct
+///   walk books them as Fate::direct, or passes them over if it follows bounces
+/// - `static constexpr bool follows_bounces = true`: the photon goes on from diffuse surfaces (Event::diffuse) in a
+///   random direction, each as likely as it is bright, and ends there with a probability of 1 − albedo. `deposit` is
+///   called at each of them and returns void. The walk books all flux, also what surfaces receive
+///   (`Statistics::received`). For photons without tangents (`WithoutTangents`)
 /// - `static constexpr bool follows_all_ways = true`: at each surface the photon takes all ways that the scene's
 ///   `scatter_all` returns, one after the other, in the scene's order, each to its end. There is no roulette then, and
 ///   a photon may have many deposits, or none
@@ -49,35 +53,6 @@ namespace nephroid {
 struct NoVisitor {}; ///< has no members
 
 namespace detail {
-struct HasFlight {
-    int flight;
-};
-struct HasMeet {
-    int meet;
-};
-struct HasDeposit {
-    int deposit;
-};
-template <class A, class B>
-struct Both : A, B {};
-
-// Whether a type has a member of a name, of any kind: the name is then ambiguous in a class that also inherits another
-// member of that name.
-template <class Visitor>
-concept CanBeBase = std::is_class_v<Visitor> && !std::is_final_v<Visitor>;
-template <class Visitor>
-concept NamesFlight = CanBeBase<Visitor> && !requires {
-    &Both<Visitor, HasFlight>::flight;
-};
-template <class Visitor>
-concept NamesMeet = CanBeBase<Visitor> && !requires {
-    &Both<Visitor, HasMeet>::meet;
-};
-template <class Visitor>
-concept NamesDeposit = CanBeBase<Visitor> && !requires {
-    &Both<Visitor, HasDeposit>::deposit;
-};
-
 template <class Visitor>
 struct trail_of {
     using type = NoTrail;
@@ -90,15 +65,18 @@ struct trail_of<Visitor> {
 template <class Visitor>
 using trail_t = typename trail_of<Visitor>::type;
 
-template <class Trail, class H>
-concept TrailOver = std::default_initializable<Trail> && std::copyable<Trail> && requires(Trail trail, const H& hit) {
-    trail.meet(hit, true, true);
-};
-
 template <class Visitor>
 inline constexpr bool follows_all_ways = [] {
     if constexpr (requires { std::bool_constant<Visitor::follows_all_ways>(); })
         return bool(Visitor::follows_all_ways);
+    else
+        return false;
+}();
+
+template <class Visitor>
+inline constexpr bool follows_bounces = [] {
+    if constexpr (requires { std::bool_constant<Visitor::follows_bounces>(); })
+        return bool(Visitor::follows_bounces);
     else
         return false;
 }();
@@ -139,59 +117,6 @@ concept EndsPhotonsAtDeposits = VisitsDeposits<Visitor, V, F, N> &&
     requires(Visitor& visitor, const Deposit<V, F, N>& deposit, const WalkedPath<trail_t<Visitor>>& path) {
     { visitor.deposit(deposit, path) } -> std::same_as<void>;
 };
-
-/// Whether all members that a visitor has can be called as the walk calls them.
-template <class Visitor, class S, class V, class F, std::size_t N>
-consteval bool fits_walk() {
-    using H = hit_t<S, V>;
-    constexpr bool flights = VisitsFlights<Visitor, V, F, N>, surfaces = VisitsSurfaces<Visitor, H>,
-                   deposits = VisitsDeposits<Visitor, V, F, N>;
-    constexpr bool has_any = flights || surfaces || deposits || std::same_as<Visitor, NoVisitor>;
-    constexpr bool flight_fits = flights || !NamesFlight<Visitor>;
-    constexpr bool meet_fits = surfaces || !NamesMeet<Visitor>;
-    constexpr bool deposit_fits = deposits || !NamesDeposit<Visitor>;
-    constexpr bool result_fits =
-        !deposits || EndsPhotonsAtDeposits<Visitor, V, F, N> || SendsPhotonsOn<Visitor, V, F, N>;
-    constexpr bool ways_fit = !follows_all_ways<Visitor> || (deposits && ScattersDeterministically<S, V>);
-    return has_any && flight_fits && meet_fits && deposit_fits && result_fits && ways_fit &&
-           TrailOver<trail_t<Visitor>, H>;
-}
-
-/// What is wrong with a visitor, as the first line of the compiler's message.
-template <class Visitor, class S, class V, class F, std::size_t N>
-consteval bool explain_visitor() {
-    using H = hit_t<S, V>;
-    constexpr bool deposits = VisitsDeposits<Visitor, V, F, N>;
-    static_assert(TrailOver<trail_t<Visitor>, H>,
-                  "nephroid::walk: the visitor's `trail` must be default-constructible, copyable, and have "
-                  "meet(hit, bool from_front, bool passed) (transport/trail.hpp)");
-    static_assert(!NamesFlight<Visitor> || VisitsFlights<Visitor, V, F, N>,
-                  "nephroid::walk: the visitor's `flight` must take a const Flight<V, F, N>& of the photon's vector, "
-                  "flux and number of tangents (transport/flight.hpp)");
-    static_assert(!NamesMeet<Visitor> || VisitsSurfaces<Visitor, H>,
-                  "nephroid::walk: the visitor's `meet` must take (hit, bool from_front, bool passed) "
-                  "(transport/visitor.hpp)");
-    static_assert(!NamesDeposit<Visitor> || deposits,
-                  "nephroid::walk: the visitor's `deposit` must take (const Deposit<V, F, N>&, const "
-                  "WalkedPath<trail>&), of the photon's vector, flux and number of tangents (transport/visitor.hpp)");
-    static_assert(!deposits || EndsPhotonsAtDeposits<Visitor, V, F, N> || SendsPhotonsOn<Visitor, V, F, N>,
-                  "nephroid::walk: the visitor's `deposit` must return nothing, or std::optional<Photon<V, F, N>>: "
-                  "what goes on from there (transport/visitor.hpp)");
-    static_assert(!follows_all_ways<Visitor> || deposits,
-                  "nephroid::walk: a visitor that follows all ways must have deposit(deposit, path), as a photon then "
-                  "has many (transport/visitor.hpp)");
-    static_assert(
-        !follows_all_ways<Visitor> || ScattersDeterministically<S, V>,
-        "nephroid::walk: the visitor follows all ways, but the scene lacks scatter_all(hit, direction) const, "
-        "with a third parameter for the medium if scatter has one; if its scatter draws no numbers, say "
-        "scatters_by_chance = false (transport/ways.hpp)");
-    static_assert(deposits || VisitsFlights<Visitor, V, F, N> || VisitsSurfaces<Visitor, H>,
-                  "nephroid::walk: the visitor has neither flight, nor meet, nor deposit (transport/visitor.hpp)");
-    return false;
-}
-
-template <class Visitor, class S, class V, class F, std::size_t N>
-concept MustVisit = fits_walk<Visitor, S, V, F, N>() || explain_visitor<Visitor, S, V, F, N>();
 } // namespace detail
 
 } // namespace nephroid

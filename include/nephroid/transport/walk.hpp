@@ -6,6 +6,7 @@
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/visited_walk.hpp"
 #include "nephroid/transport/visitor.hpp"
+#include "nephroid/transport/visitor_checks.hpp"
 #include "nephroid/transport/walk_limits.hpp"
 
 #include <cstddef>

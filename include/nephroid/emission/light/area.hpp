@@ -46,6 +46,8 @@ public:
         frame_ = frame_about(axis_);
     }
 
+    [[nodiscard]] const F& radiance() const { return radiance_; }
+
     /// Emits one of `spread.photons` photons.
     ///
     /// @param point   drawn uniformly from the light's area

@@ -43,7 +43,7 @@ public:
 
     /// Throws std::invalid_argument for a direction without length or in the patch's plane, a patch without area, a
     /// negative irradiance, and values that are not finite.
-    explicit DirectionalLight(const Options& options) : irradiance_(options.irradiance) {
+    explicit DirectionalLight(const Options& options) : irradiance_(options.irradiance), scene_(options.scene) {
         validate_.flux("irradiance", options.irradiance);
         direction_ = validate_.direction("direction", options.direction);
         std::visit([this](const auto& patch) { this->cover(patch); }, options.patch);
@@ -67,6 +67,11 @@ public:
                 direction_,
                 static_cast<F>(irradiance_ * (area_ * cosine_ / spread.photons)),
                 {Tangent<V>{d_length * basis_.u, zero}, Tangent<V>{d_length * basis_.v, zero}}};
+    }
+
+    /// The same light over the shadow of a sphere alone.
+    [[nodiscard]] DirectionalLight aimed_at(const BoundingSphere<V>& target) const {
+        return DirectionalLight({direction_, irradiance_, target, scene_});
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
@@ -137,6 +142,7 @@ private:
 
     V direction_ = zero_vector<V>();
     F irradiance_;
+    std::optional<BoundingSphere<V>> scene_;
     bool is_disk_ = false;
     V origin_ = zero_vector<V>(); ///< the disk's centre or the parallelogram's corner
     V edge_u_ = zero_vector<V>(); ///< the disk's radius or the parallelogram's edge

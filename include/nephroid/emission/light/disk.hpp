@@ -39,6 +39,11 @@ public:
         return emission_.emit(point(u1, u2), area_, u3, u4, spread);
     }
 
+    /// The same light, aimed at what lies within a sphere.
+    [[nodiscard]] DiskLight aimed_at(const BoundingSphere<V>& target) const {
+        return DiskLight({middle_.position, middle_.normal, radius_, emission_.radiance(), target});
+    }
+
     [[nodiscard]] EmissionDomain exact_domain() const {
         return emission_.domain({Kinks::diagonals, DomainEdge::ends}, middle_.position, radius_);
     }

@@ -46,6 +46,14 @@ public:
         return emission_.emit(point(u1, u2), area_, u3, u4, spread);
     }
 
+    /// The same light, aimed at what lies within a sphere.
+    [[nodiscard]] MeshLight aimed_at(const BoundingSphere<V>& target) const {
+        Options options{{}, emission_.radiance(), target};
+        for (const Face& face : faces_)
+            options.triangles.push_back({face.corner, face.corner + face.edge_1, face.corner + face.edge_2});
+        return MeshLight(options);
+    }
+
     [[nodiscard]] EmissionDomain exact_domain() const {
         return emission_.domain({Kinks::unknown, DomainEdge::ends}, faces_.front().corner, T(0));
     }

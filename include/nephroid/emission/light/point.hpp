@@ -60,6 +60,11 @@ public:
                 detail::point_tangents(direction, spread.length(solid_angle))};
     }
 
+    /// The same light, aimed at what lies within a sphere.
+    [[nodiscard]] PointLight aimed_at(const BoundingSphere<V>& target) const {
+        return PointLight({position_, intensity_, target});
+    }
+
     [[nodiscard]] EmissionDomain exact_domain() const {
         const EmissionPair pair = direction_pair(cone_);
         return {.coordinates = 2, .kinks = {pair.kinks}, .edges = {pair.edges, pair.edges}};

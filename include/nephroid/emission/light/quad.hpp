@@ -39,6 +39,11 @@ public:
         return emission_.emit(point(u1, u2), area_, u3, u4, spread);
     }
 
+    /// The same light, aimed at what lies within a sphere.
+    [[nodiscard]] QuadLight aimed_at(const BoundingSphere<V>& target) const {
+        return QuadLight({corner_, edge_u_, edge_v_, emission_.radiance(), target});
+    }
+
     [[nodiscard]] EmissionDomain exact_domain() const {
         const V middle = point(T(0.5), T(0.5)).position;
         return emission_.domain({Kinks::nowhere, DomainEdge::ends}, middle,

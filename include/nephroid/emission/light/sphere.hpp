@@ -39,6 +39,11 @@ public:
         return emission_.emit(point(u1, u2), area_, u3, u4, spread);
     }
 
+    /// The same light, aimed at what lies within a sphere.
+    [[nodiscard]] SphereLight aimed_at(const BoundingSphere<V>& target) const {
+        return SphereLight({centre_, radius_, emission_.radiance(), target});
+    }
+
     [[nodiscard]] EmissionDomain exact_domain() const {
         EmissionDomain exact = emission_.domain(direction_pair(cap_), centre_, radius_);
         // The frames about normals are discontinuous at a right angle to the middle one.

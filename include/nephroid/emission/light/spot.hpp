@@ -65,6 +65,12 @@ public:
                 detail::point_tangents(direction, spread.length(solid_angle))};
     }
 
+    /// The same light, aimed at what lies within a sphere.
+    [[nodiscard]] SpotLight aimed_at(const BoundingSphere<V>& target) const {
+        return SpotLight(
+            {position_, axis_, T(1) - inner_height_, T(1) - inner_height_ - ring_height_, intensity_, target});
+    }
+
     [[nodiscard]] EmissionDomain exact_domain() const {
         const EmissionPair pair = direction_pair(cone_);
         return {.coordinates = 2, .kinks = {pair.kinks}, .edges = {pair.edges, pair.edges}};
