@@ -7,7 +7,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace nephroid::tests::group_field_test {
@@ -172,6 +174,32 @@ TEST_CASE("group field: flat facets are splatted as published, and a few of them
     options.largest_miss = std::numeric_limits<double>::infinity();
     options.smoothing.reset();
     check(1, false);
+}
+
+// The same mirror, with strips as broad as a cell, 3 lattice steps, so that the photons around each cell land on three
+// of them. Of 49 cells, more than two thirds must say so, of 441 more than a quarter. The map is smooth beyond `end`.
+TEST_CASE("group field: few cells are splatted as published where most of them hold facets, not half of them") {
+    const auto is_published = [](double size, double end) {
+        const auto map = [=](double u, double v) {
+            const double strip = std::floor((std::min)(u, end) * size / 3) * 3 / size;
+            return Landing{{u - 0.5 * strip, v, 0}, {1, 0, 0}, {0, 1, 0}};
+        };
+        const double count = size * size;
+        FieldOptions options{.stratified = true, .photons = count};
+        options.largest_miss = SecondOrder{}.largest_miss;
+        const Field field = field_of(photons_of(map, lattice(std::size_t(size), std::size_t(size))), options);
+        const MapPhoton photon = photon_at(map, {0.7, 0.4}, count);
+        const auto here = field.at(photon.sample.at, photon.frame, photon.signature);
+        REQUIRE(here);
+        CHECK((here->shape.determinant() == std::pow(default_smoothing, 4)) == here->as_published);
+        return here->as_published;
+    };
+    CHECK(is_published(21, 1));
+    CHECK(!is_published(21, 0.4)); // it holds facets in three columns of seven
+    CHECK(!is_published(21, 0));
+    CHECK(is_published(63, 1));
+    CHECK(is_published(63, 0.4));
+    CHECK(!is_published(63, 0));
 }
 
 // A mirror in strips with interpolated normals, 1/32 of the domain wide, 2.6 cells: from each to the next, stretch

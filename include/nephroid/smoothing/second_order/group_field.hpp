@@ -97,13 +97,15 @@ public:
     }
 
 private:
-    /// Whether photons contradict the map in more than a quarter of the cells, and the footprints there have more area
-    /// than the published ones. (Smaller ones are no worse than those where the map is wrong.) Then no footprint of the
-    /// group is trusted, since those of other cells reach into these. With few cells nothing is concluded: each spans
-    /// so much of a smooth map that photons contradict its fit as well.
+    /// Whether photons contradict the map in many cells, and the footprints there have more area than the published
+    /// ones. (Smaller ones are no worse than those where the map is wrong.) Then no footprint of the group is trusted,
+    /// since those of other cells reach into these.
+    ///
+    /// A quarter of the cells are many, or two thirds where there are few cells: each then spans so much of a smooth
+    /// map that photons contradict its fit in up to half of them, but on flat facets they do so in nearly all.
     [[nodiscard]] bool are_shapes_contradicted() const {
-        constexpr double most = 0.25;
-        constexpr std::size_t fewest = 256;
+        constexpr std::size_t few = 256; // cells, fewer than this
+        constexpr double many = 0.25, many_of_few = 2.0 / 3;
         constexpr double published = square(square(default_smoothing)); // det S
         std::size_t resolved = 0, contradicted = 0;
         for (std::size_t i = 0; i < cells_.size(); ++i)
@@ -111,7 +113,7 @@ private:
                 ++resolved;
                 contradicted += cells_[i].is_contradicted && cells_[i].shape.determinant() > published;
             }
-        return resolved >= fewest && double(contradicted) > most * double(resolved);
+        return double(contradicted) > (resolved < few ? many_of_few : many) * double(resolved);
     }
 
     [[nodiscard]] static std::vector<std::array<double, 2>> coordinates_of(const PathSamples& all,
