@@ -12,6 +12,7 @@
 #include "nephroid/smoothing/second_order/group_frames.hpp"
 #include "nephroid/smoothing/second_order/path_groups.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
+#include "nephroid/smoothing/second_order/tangent_scatter.hpp"
 #include "nephroid/smoothing/second_order/varying_shape.hpp"
 
 #include <array>
@@ -145,7 +146,7 @@ private:
     void choose_shape(GroupCell& cell) const {
         if (!cell.is_resolved)
             return;
-        double weights = 0;
+        double weights = 0, scatter = 0;
         Symmetric2 blurred{};
         MapKinks kinks;
         cells_.for_each_around(cell, [&](const GroupCell& other, double weight) {
@@ -153,9 +154,11 @@ private:
                 return;
             blurred += weight * congruent(cell.frame.axes_of(other.frame), other.log_q);
             kinks.add(other.kinks, weight);
+            scatter += weight * other.scatter;
             weights += weight;
         });
-        cell.shape = options_.scale * shape_tensor((1 / weights) * blurred, density_, options_.bounds, kinks.density());
+        const Symmetric2 shape = shape_tensor((1 / weights) * blurred, density_, options_.bounds, kinks.density());
+        cell.shape = bounded_by_scatter(options_.scale * shape, scatter / weights);
     }
 
     /// A cell's shape at a photon, in the cell's frame, bounded by the border of the group.
