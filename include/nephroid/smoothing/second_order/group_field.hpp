@@ -16,6 +16,7 @@
 #include "nephroid/smoothing/second_order/varying_shape.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -102,11 +103,10 @@ private:
     /// ones. (Smaller ones are no worse than those where the map is wrong.) Then no footprint of the group is trusted,
     /// since those of other cells reach into these.
     ///
-    /// A quarter of the cells are many, or two thirds where there are few cells: each then spans so much of a smooth
-    /// map that photons contradict its fit in up to half of them, but on flat facets they do so in nearly all.
+    /// A quarter of the cells are many, and more where there are few cells: each then spans so much of a smooth map
+    /// that photons contradict its fit as well, in up to 3 cells of 7. On flat facets they do so in half of the cells
+    /// or nearly all.
     [[nodiscard]] bool are_shapes_contradicted() const {
-        constexpr std::size_t few = 256; // cells, fewer than this
-        constexpr double many = 0.25, many_of_few = 2.0 / 3;
         constexpr double published = square(square(default_smoothing)); // det S
         std::size_t resolved = 0, contradicted = 0;
         for (std::size_t i = 0; i < cells_.size(); ++i)
@@ -114,7 +114,8 @@ private:
                 ++resolved;
                 contradicted += cells_[i].is_contradicted && cells_[i].shape.determinant() > published;
             }
-        return double(contradicted) > (resolved < few ? many_of_few : many) * double(resolved);
+        const auto cells = double(resolved);
+        return double(contradicted) > 0.25 * cells + 0.6 * std::sqrt(cells);
     }
 
     [[nodiscard]] static std::vector<std::array<double, 2>> coordinates_of(const PathSamples& all,
