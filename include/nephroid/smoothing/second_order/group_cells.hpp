@@ -29,6 +29,7 @@ struct GroupCell {
     std::array<PlaneMatrix, 2> to_frame_by_side{};
     PathDerivatives map{}; ///< at the middle
     MapKinks kinks{};      ///< in the cell, later also around it (GroupField)
+    double scatter = 0;    ///< of the photons' tangents about the map (tangent_scatter)
     Symmetric2 log_q{}, shape{};
     bool has_frame = false;
     bool is_resolved = false;       ///< whether the photons determined the derivatives

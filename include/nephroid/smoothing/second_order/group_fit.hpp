@@ -10,6 +10,7 @@
 #include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
 #include "nephroid/smoothing/second_order/tangent_jumps.hpp"
+#include "nephroid/smoothing/second_order/tangent_scatter.hpp"
 
 #include <array>
 #include <cmath>
@@ -69,6 +70,7 @@ inline void fit_derivatives(GroupCell& cell, const GroupCells& cells, const Path
     }
     const std::vector<TangentJump> jumps = tangent_jumps(here);
     cell.kinks = map_kinks(jumps);
+    cell.scatter = tangent_scatter(here);
     const Symmetric2 q = bending(cell.map, options.photons, share, roughness(jumps), options.bounds.stretch);
     cell.log_q = log_bending(q, options.bounds);
     cell.is_resolved = cell.is_resolved && std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);
