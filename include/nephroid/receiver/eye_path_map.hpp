@@ -88,13 +88,15 @@ private:
     void gather_normals(const Vertices& vertices, Normal& normal) {
         using t = vector_traits<V>;
         for (auto& component : normals_)
-            component.resize(tree_.slots());
+            component.reserve(tree_.slots());
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
             const V n = std::invoke(normal, detail::element_at(vertices, tree_.index(slot)));
             if (!(abs(length2(n) - T(1)) < T(0.01)))
                 invalid_argument("nephroid::EyePathMap: vertex " + std::to_string(tree_.index(slot)) +
                                  " has the normal " + detail::text_of(n) + "; normals must be of unit length");
-            normals_[0][slot] = t::x(n), normals_[1][slot] = t::y(n), normals_[2][slot] = t::z(n);
+            normals_[0].push_back(t::x(n));
+            normals_[1].push_back(t::y(n));
+            normals_[2].push_back(t::z(n));
         }
     }
 
