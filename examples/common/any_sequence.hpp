@@ -5,6 +5,7 @@
 #include "common/command_line.hpp"
 
 #include "nephroid/sequence/halton.hpp"
+#include "nephroid/sequence/r2.hpp"
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/sequence/sobol.hpp"
 
@@ -14,47 +15,51 @@
 
 namespace nephroid::examples {
 
-enum class SequenceKind { halton, sobol, random };
+enum class SequenceKind { halton, sobol, r2, random };
 
 [[nodiscard]] inline const Names<SequenceKind>& sequence_names() {
-    static const Names<SequenceKind> names = {
-        {"halton", SequenceKind::halton}, {"sobol", SequenceKind::sobol}, {"random", SequenceKind::random}};
+    static const Names<SequenceKind> names = {{"halton", SequenceKind::halton},
+                                              {"sobol", SequenceKind::sobol},
+                                              {"r2", SequenceKind::r2},
+                                              {"random", SequenceKind::random}};
     return names;
 }
 
 [[nodiscard]] inline const char* name_of(SequenceKind sequence) { return name_in(sequence_names(), sequence); }
 
-/// Halton's or Sobol's sequence, chosen by a branch for each number, so that code that takes a sequence is compiled
-/// once.
+/// A stratified sequence, chosen by a branch for each number, so that code that takes a sequence is compiled once.
 class StratifiedSequence {
 public:
     static constexpr bool stratified = true;
 
-    explicit StratifiedSequence(const HaltonSequence& halton = HaltonSequence()) : halton_(halton), is_halton_(true) {}
-    explicit StratifiedSequence(const SobolSequence& sobol) : sobol_(sobol), is_halton_(false) {}
+    explicit StratifiedSequence(SequenceKind kind = SequenceKind::halton, std::uint64_t seed = 0)
+        : kind_(kind), halton_(seed), sobol_(seed), r2_(seed) {}
 
     template <std::floating_point T>
     [[nodiscard]] T sample(std::uint64_t index, std::uint32_t dimension) const noexcept {
-        return is_halton_ ? halton_.sample<T>(index, dimension) : sobol_.sample<T>(index, dimension);
+        switch (kind_) {
+        case SequenceKind::sobol:
+            return sobol_.sample<T>(index, dimension);
+        case SequenceKind::r2:
+            return r2_.sample<T>(index, dimension);
+        default:
+            return halton_.sample<T>(index, dimension);
+        }
     }
 
 private:
+    SequenceKind kind_;
     HaltonSequence halton_;
     SobolSequence sobol_;
-    bool is_halton_;
+    R2Sequence r2_;
 };
 
 using AnySequence = std::variant<StratifiedSequence, RandomSequence>;
 
 [[nodiscard]] inline AnySequence make_sequence(SequenceKind sequence, std::uint64_t seed) {
-    switch (sequence) {
-    case SequenceKind::sobol:
-        return StratifiedSequence(SobolSequence(seed));
-    case SequenceKind::random:
+    if (sequence == SequenceKind::random)
         return RandomSequence(seed);
-    default:
-        return StratifiedSequence(HaltonSequence(seed));
-    }
+    return StratifiedSequence(sequence, seed);
 }
 
 } // namespace nephroid::examples

@@ -39,6 +39,7 @@
 #include "nephroid/relaxation/detect_features.hpp"
 #include "nephroid/relaxation/relax.hpp"
 #include "nephroid/sequence/halton.hpp"
+#include "nephroid/sequence/r2.hpp"
 #include "nephroid/sequence/random.hpp"
 #include "nephroid/sequence/sobol.hpp"
 #include "nephroid/smoothing/cross_validated_smoothing.hpp"

@@ -2,6 +2,7 @@
 #include "common/gltf.hpp"
 #include "support/gltf_reading.hpp"
 #include "support/gltf_writer.hpp"
+#include "support/is_sanitized.hpp"
 #include "support/temporary_folder.hpp"
 
 #include <doctest/doctest.h>
@@ -282,8 +283,11 @@ TEST_CASE("glTF: a file cut off anywhere is refused") {
 TEST_CASE("glTF: a file with any one byte changed is read or refused in one line") {
     const std::string whole = caustic_scene(TestLight::quad).glb();
     const std::size_t json_end = whole.find("BIN");
+    std::size_t number = 0;
     for (std::size_t i = 0; i < json_end; ++i) {
         for (const char byte : {'\0', '\xFF', '"', '}', '9', '-'}) {
+            if (tests::is_sanitized && ++number % 5 != 0) // which takes ten times as long: another byte at each place
+                continue;
             std::string changed = whole;
             changed[i] = byte;
             const std::string problem = problem_of(changed);

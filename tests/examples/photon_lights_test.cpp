@@ -5,6 +5,7 @@
 #include "examples/worlds.hpp"
 #include "nephroid/pass/photons_to_emit.hpp"
 #include "nephroid/sequence/halton.hpp"
+#include "support/is_sanitized.hpp"
 
 #include <doctest/doctest.h>
 
@@ -183,7 +184,7 @@ TEST_CASE("photon lights: several targets bring as much light to the glass as on
             auto lamps = lamp_of_kind(kind, along);
             if (kind == 2)
                 lamps.lamps[0].direction = normalize(V(along, 0.2, -1));
-            constexpr std::uint64_t photons = 40'000;
+            constexpr std::uint64_t photons = tests::is_sanitized ? 4'000 : 40'000;
             const auto lights = photon_lights(lamps, scene);
             const double flux = follow(scene, lights, photons).flux;
             using One = SceneLights<double, V>;

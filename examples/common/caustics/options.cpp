@@ -133,7 +133,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     std::string kernel = "biweight", sequence = "halton", filter = "on", fresnel = "off", reflection = "any";
     std::string layer = "all", output, json, reference;
     app.add_option("--kernel", kernel, "biweight|epanechnikov|cone|uniform|gaussian [biweight]");
-    app.add_option("--sequence", sequence, "halton|sobol|random [halton]");
+    app.add_option("--sequence", sequence, "halton|sobol|r2|random [halton]");
     app.add_option("--seed", seed, "Of the sequence [0]");
     app.add_option("--threads", options.threads, "0 takes all that the machine has [0]; the picture is the same");
     app.add_option("--pixel-filter", filter, "on|off [on]");

@@ -78,7 +78,7 @@ std::vector<SequenceKind> read_sequences(const std::string& text) {
 MeasuringArguments::MeasuringArguments(CLI::App& app, const Defaults& defaults)
     : photons_(defaults.photons), size_(defaults.size), threads_(defaults.threads), repeats_(defaults.repeats) {
     app.add_option("--photons", photons_, "Caustic photons, several counts [" + photons_ + "]");
-    app.add_option("--sequence", sequence_, "Some of halton,sobol,random [halton,random]");
+    app.add_option("--sequence", sequence_, "Some of halton,sobol,r2,random [halton,random]");
     app.add_option("--seed", seed_, "Of the sequences [0]");
     app.add_option("--repeats", repeats_,
                    "Of each timing, at most; less where one takes long [" + std::to_string(repeats_) + "]");

@@ -29,7 +29,7 @@ struct Parallelogram {
     V edge_v;
 };
 
-/// The patch that a beam starts from. A sphere means the disk in front of the sphere that covers it.
+/// The patch that a beam starts from. A sphere stands for the disk of its radius in front of it (`beam_over`).
 template <Vector3 V>
 using BeamPatch = std::variant<BoundingSphere<V>, BeamDisk<V>, Parallelogram<V>>;
 

@@ -56,13 +56,15 @@ concept EstimatesPower = requires(const L light) {
 ///   first. The first two tangents are orthogonal and aligned at emission (emission/aligned_basis.hpp); a light may add
 ///   more. It does not throw; a photon's flux may be zero.
 /// - `domain`, optional, `static constexpr EmissionDomain`: which of the samples are a photon's coordinates in the
-///   light's domain, and which are extras (emission/domain.hpp). Methods that use a photon's neighbours (second order,
-///   sheets) need it; without a domain, photons are splatted one by one. Only what the lights' domains need is
+///   light's domain, and which are extras (emission/domain.hpp). Methods that use a photon's neighbours (second
+///   order) need it; without a domain, photons are splatted one by one. Only what the lights' domains need is
 ///   compiled.
 /// - `exact_domain() const -> EmissionDomain`, optional: the domain with kinks and edges that depend on the light's
 ///   options
-/// - `power()`: an estimate of that flux, in the unit of `flux_traits::power`. A set of lights shares its
-///   photons among them by power, so it may be zero only if the flux is zero.
+/// - `charts() -> EmissionCharts`, or `charts_at(u1, u2, share)` for a light with area, optional: the domain without
+///   kinks, piece by piece (emission/chart/). Sheets draw nothing of a light that has none, and say so
+/// - `power()`: an estimate of the flux that the light sends into its domain, in the unit of `flux_traits::power`. A
+///   set of lights shares its photons among them by power, so it may be zero only if the flux is zero.
 ///
 /// ```cpp
 /// struct MyLaser { // a light of the renderer's own: a beam of this radius

@@ -15,9 +15,9 @@ struct Photon {
     using flux_type = F;
     static constexpr std::size_t tangent_count = N;
 
-    V position;
+    V position;  ///< world units
     V direction; ///< unit
-    F flux;
+    F flux;      ///< of this photon alone: the light's power over the number of photons emitted, less what was lost
     PhotonDifferential<V, N> differential;
 };
 

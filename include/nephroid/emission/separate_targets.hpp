@@ -63,18 +63,20 @@ template <Vector3 V>
 /// count no direction twice. Groups that overlap as seen from the lamp become one target, whose bounds then contain the
 /// cones towards its objects, but not all of the objects.
 ///
+/// @param objects    bounds of the specular objects
+/// @param groups     those that `group_targets` made of the same array; their numbers are not checked
 /// @param lamp       its position, finite
-/// @param cos_outer  of a spot, in [-1, 1], or -1: a spot with a target wider than its own cone shines into all of that
-///                   cone
-/// Throws std::invalid_argument if one of them is not as said.
+/// @param cos_outer  cosine of a spot's outer angle, in [-1, 1]; -1 for other lamps. A spot whose target is wider than
+///                   its own cone shines into all of that cone
+/// Throws std::invalid_argument for a position or a cosine out of its range.
 template <Vector3 V>
     requires std::floating_point<scalar_t<V>>
 [[nodiscard]] std::vector<TargetGroup<V>> targets_from(const std::type_identity_t<V>& lamp,
                                                        std::vector<TargetGroup<V>> groups,
                                                        scalar_t<V> cos_outer = scalar_t<V>(-1)) {
     using T = scalar_t<V>;
-    // `cone_towards` adds 12 epsilon to the square of the cosine, which near the widest angle below widens each of two
-    // cones by some 200, and rounding by some 50.
+    // In epsilons: `cone_towards` lowers the squared cosine by 12, which near the widest angle below widens each of two
+    // cones by about 200, and rounding by about 50.
     constexpr T margin = T(640) * std::numeric_limits<T>::epsilon();
     if (!all_finite(lamp))
         invalid_argument("nephroid::targets_from: the lamp is at " + detail::text_of(lamp) + "; positions are finite");
@@ -85,7 +87,7 @@ template <Vector3 V>
         V axis;
         T distance, half_angle;
     };
-    const T widest = (std::min)(std::acos(cos_outer), T(0.49) * pi<T>); // no sphere fills more
+    const T widest = (std::min)(std::acos(cos_outer), T(0.49) * pi<T>); // a wider target counts as every direction
     const auto view = [&](const TargetGroup<V>& group) -> View {
         const V towards = group.bounds.centre - lamp;
         const T distance = length(towards);
@@ -111,7 +113,7 @@ template <Vector3 V>
         // Between both axes, such that both cones touch the new one.
         const T turn = half_angle - margin - wide.half_angle;
         const V across = narrow.axis - dot(narrow.axis, wide.axis) * wide.axis;
-        const T away = length(across); // 0 of targets behind one another, whose turn may be more by rounding
+        const T away = length(across); // 0 if one target is behind the other; rounding may still make `turn` positive
         const V axis =
             turn > T(0) && away > T(0) ? V(std::cos(turn) * wide.axis + std::sin(turn) / away * across) : wide.axis;
         return {lamp + distance * axis, distance * std::sin(half_angle)};
@@ -129,7 +131,7 @@ template <Vector3 V>
                                                             std::vector<TargetGroup<V>> groups) {
     using T = scalar_t<V>;
     constexpr T margin = T(256) * std::numeric_limits<T>::epsilon(); // cones are rounded up, two by 25 epsilon each
-    constexpr T widest = T(1); // radians: less than what a light aims at, see AreaEmission
+    constexpr T widest = T(1); // radians: below π/3, the half angle up to which AreaEmission aims at a target
     if (!all_finite(lamp.centre) || !(lamp.radius >= T(0)) || !isfinite(lamp.radius))
         invalid_argument("nephroid::targets_from_area: the lamp's sphere is at " + detail::text_of(lamp.centre) +
                          " with radius " + detail::text_of(lamp.radius) +

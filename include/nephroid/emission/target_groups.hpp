@@ -20,8 +20,8 @@ namespace nephroid {
 /// Objects that a light is aimed at together.
 template <Vector3 V>
 struct TargetGroup {
-    std::vector<std::size_t> objects; ///< their numbers
-    BoundingSphere<V> bounds;         ///< around them
+    std::vector<std::size_t> objects; ///< indices in the array that was given to `group_targets`
+    BoundingSphere<V> bounds;         ///< what a light is aimed at to reach them
 };
 
 namespace detail {
@@ -92,7 +92,7 @@ template <Vector3 V>
 void divide(const std::vector<BoundingSphere<V>>& objects, TargetGroup<V> group, int depth,
             std::vector<TargetGroup<V>>& groups) {
     using T = scalar_t<V>;
-    constexpr T worth_it = T(0.7); // of the area, for one more light
+    constexpr T worth_it = T(0.7); // largest ratio of the parts' area to the whole's that is worth one more light
     const auto gap = depth > 0 ? widest_gap(objects, group.objects) : std::nullopt;
     if (gap) {
         const auto middle = gap->first.begin() + static_cast<std::ptrdiff_t>(gap->second);

@@ -22,12 +22,13 @@
 
 namespace nephroid {
 
-/// Tells which share of the disk about a position lies on the surface: coverage(position, normal, radius) -> share. In
-/// (0, 1]; an estimate takes anything else, zero and NaN among them, as 1. Called from several threads at once.
+/// Tells which share of the disk about a position lies on the surface: coverage(position, normal, radius) -> share in
+/// (0, 1]. Position and radius are in world units, the normal is unit. An estimate takes any other share, zero and NaN
+/// among them, as 1. Called from several threads at once.
 ///
 /// The share of the kernel's weight makes an estimate in even light right at every border. The share of the area is
-/// simpler, and right for `UniformKernel` alone: of a kernel that fades more lies on the surface, and the estimate
-/// becomes too bright. Only on a straight border itself both are a half.
+/// simpler, but right for `UniformKernel` alone: other kernels weigh the middle of the disk more, which is always on
+/// the surface, so the estimate becomes too bright. The two agree only on a straight border, where both are a half.
 template <class C, class V>
 concept DiskCoverage = requires(const C coverage, const V& v, scalar_t<V> radius) {
     { coverage(v, v, radius) } -> std::convertible_to<scalar_t<V>>;
@@ -41,9 +42,9 @@ struct WholeDisk {
     }
 };
 
-/// The share of a kernel's weight, from 96 points of the disk that the caller tells to lie on the surface or beside it.
-/// The points lie on a spiral, each for the same area, so the share is off by about 1%; at a border that is far more
-/// exact than the photons' own noise.
+/// The share of a kernel's weight, from 96 points of the disk. The caller's function says which of them are on the
+/// surface. They lie on a spiral, each for the same area, so the share is off by about 1%: far less than the noise of
+/// the photons at a border.
 template <class OnSurface, class K = BiweightKernel>
 class SampledCoverage {
 public:

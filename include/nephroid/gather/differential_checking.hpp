@@ -74,7 +74,7 @@ template <Vector3 V, Flux F>
                                         const DifferentialChecking& checking) {
     const double resolution2 = checking.resolution * checking.resolution;
     Agreement agreement(checking.significance);
-    double power = 0, power2 = 0; // of all photons but the last, and the sum of their squares
+    double power = 0, power2 = 0; // sums of flux and of its square over all nearer photons
     std::size_t agreed = sorted.size(), next = checking.least;
     for (std::size_t count = 1; count <= sorted.size(); ++count) {
         const double farthest2 = double(sorted[count - 1].distance2);

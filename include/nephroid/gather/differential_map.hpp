@@ -41,7 +41,7 @@ public:
     DifferentialMap(const std::vector<Deposit<V, F, N>>& deposits, const EyePathMap<V>& eyes)
         : DifferentialMap(deposits, eyes, Published{}) {}
 
-    /// The irradiance at a point of a surface; a position that is not finite receives nothing.
+    /// The irradiance at a point of a surface, flux per area; a position that is not finite receives nothing.
     /// @param normal  unit; photons on the other side do not count
     [[nodiscard]] F operator()(const V& position, const V& normal) const {
         return (*this)(position, normal, detail::NoResponse{});
@@ -88,7 +88,7 @@ private:
         });
         Splats all;
         for (const Splats& part : parts) {
-            for (const Splat<V, F>& splat : part.splats) // g++ 12 warns of an insertion without reason
+            for (const Splat<V, F>& splat : part.splats) // insert() draws a false warning from g++ 12
                 all.splats.push_back(splat);
             all.statistics += part.statistics;
         }

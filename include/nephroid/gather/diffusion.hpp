@@ -18,7 +18,7 @@ struct DiffusionOptions {
     double range; ///< h > 0, world units: the kernels' radius along edges, and everywhere without any
     std::size_t gradient_count = 100; ///< photons that a gradient is estimated from, at most; >= 3
     double gradient_range = std::numeric_limits<double>::infinity(); ///< how far they may lie, world units, > 0
-    double diffusivity = 0.4;  ///< C > 0: the square of the coherence from which on kernels narrow
+    double diffusivity = 0.4;  ///< C > 0: kernels narrow where the square of the coherence is about this or more
     double least_ratio = 0.05; ///< α in (0, 1]: ratio of the squares of a kernel's axes at a sharp edge
 };
 

@@ -4,6 +4,7 @@
 
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/receiver/sink.hpp"
+#include "nephroid/tree/element_at.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -23,7 +24,7 @@ namespace nephroid {
 /// @param estimate  estimate(position, normal): NearestPhotons, FixedRange, DifferentialMap, DiffusionEstimate, or any
 ///                  callable like them; called from several threads at once
 /// @param executor  who runs the work; the result does not depend on it
-/// @param sink      `Sink`
+/// @param sink      `Sink` (receiver/sink.hpp). All estimates are kept until the first of its calls
 template <std::ranges::random_access_range Vertices, class Position, class Normal, class Estimate, class E, class S>
     requires ExecutorArgument<E>
 void estimate_at(const Vertices& vertices, Position position, Normal normal, const Estimate& estimate, E&& executor,
@@ -36,7 +37,7 @@ void estimate_at(const Vertices& vertices, Position position, Normal normal, con
     const std::size_t count = std::size_t(std::ranges::size(vertices));
     std::vector<F> estimates(count, flux_traits<F>::zero());
     detail::for_each_index(executor, count, 256, [&](std::size_t i) {
-        auto&& vertex = std::ranges::begin(vertices)[std::ranges::range_difference_t<const Vertices>(i)];
+        auto&& vertex = detail::element_at(vertices, i);
         estimates[i] = estimate(std::invoke(position, vertex), std::invoke(normal, vertex));
     });
     for (std::size_t i = 0; i < count; ++i)

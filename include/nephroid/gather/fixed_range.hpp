@@ -11,8 +11,8 @@ namespace nephroid {
 
 struct FixedRangeOptions {
     double range;               ///< R > 0, world units: the radius of the kernel
-    double normal_distance = 1; ///< photons farther than this many radii from the tangent plane do not count; from 1
-                                ///< on all in the sphere do
+    double normal_distance = 1; ///< > 0, in radii: photons farther from the tangent plane do not count. With 1 or more,
+                                ///< all photons in the sphere do
 };
 
 /// Estimates irradiance as Σ Φ K(r²/R²)/R² over the photons within R on the side that the normal faces. The kernel

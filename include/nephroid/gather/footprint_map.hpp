@@ -8,8 +8,8 @@
 
 namespace nephroid::detail {
 
-/// Boxes in kd-trees of their centres, whose nodes are extended to enclose the boxes in them. There is a tree for every
-/// power of four of the boxes' sizes, so that a few large ones do not make every leaf large.
+/// Boxes in kd-trees over their centres; the box of a node encloses all boxes below it. There is a tree for every power
+/// of four of the boxes' sizes, so that a few large boxes do not enlarge every leaf.
 ///
 /// The boxes have slots in leaf order, one tree after the other. Leaves start at multiples of `PointTree::lanes` and
 /// repeat their last slot up to the next, as in PointTree.

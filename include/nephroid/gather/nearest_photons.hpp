@@ -15,9 +15,9 @@ struct NearestPhotonsOptions {
     std::size_t count = 50;                                 ///< k >= 2: the bandwidth
     double range = std::numeric_limits<double>::infinity(); ///< photons farther away do not count, world units, > 0
     bool differential_checking = false;                     ///< fewer photons where the light changes
-    DifferentialChecking checking{};                        ///< how, if so
-    double normal_distance = 1; ///< photons farther than this many radii from the tangent plane do not count; from 1
-                                ///< on all in the sphere do
+    DifferentialChecking checking{};                        ///< read only with `differential_checking`
+    double normal_distance = 1; ///< > 0, in radii: photons farther from the tangent plane do not count. With 1 or more,
+                                ///< all photons in the sphere do
 };
 
 /// Estimates irradiance as Σ Φ K(r²/R²)/R² over the photons nearest to a point, R the distance of the k-th.

@@ -4,6 +4,7 @@
 
 #include "nephroid/transport/account.hpp"
 #include "nephroid/transport/deposit.hpp"
+#include "nephroid/tree/element_at.hpp"
 #include "nephroid/tree/point_tree.hpp"
 
 #include <concepts>
@@ -32,20 +33,22 @@ public:
     /// @param normal     projection to V: of the surface, unit, on the side that the photon came from
     /// @param direction  projection to V: of flight
     /// @param flux       projection to F, finite: the photon's share, divided by the number emitted
-    /// Throws std::invalid_argument naming the photon whose position, normal, direction or flux cannot be.
+    /// Throws std::invalid_argument, with the photon's index, for a value that is not finite and a normal that is not
+    /// unit.
     template <std::ranges::random_access_range Photons, class Position, class Normal, class Direction, class Power>
     PhotonMap(const Photons& photons, Position position, Normal normal, Direction direction, Power flux)
         : tree_(
               std::size_t(std::ranges::size(photons)),
-              [&](std::size_t i) -> V { return std::invoke(position, at(photons, i)); }, "nephroid::PhotonMap") {
+              [&](std::size_t i) -> V { return std::invoke(position, detail::element_at(photons, i)); },
+              "nephroid::PhotonMap") {
         for (auto& component : normals_)
             component.reserve(tree_.slots());
         directions_.reserve(tree_.slots());
         fluxes_.reserve(tree_.slots());
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
             const std::uint32_t i = tree_.index(slot);
-            append(i, std::invoke(normal, at(photons, i)), std::invoke(direction, at(photons, i)),
-                   std::invoke(flux, at(photons, i)));
+            auto&& photon = detail::element_at(photons, i);
+            append(i, std::invoke(normal, photon), std::invoke(direction, photon), std::invoke(flux, photon));
         }
     }
 
@@ -78,11 +81,6 @@ public:
     }
 
 private:
-    template <class Photons>
-    [[nodiscard]] static decltype(auto) at(const Photons& photons, std::size_t i) {
-        return std::ranges::begin(photons)[std::ranges::range_difference_t<const Photons>(i)];
-    }
-
     void append(std::uint32_t i, const V& n, const V& d, const F& flux) {
         using t = vector_traits<V>;
         const auto named = [i] { return "nephroid::PhotonMap: photon " + std::to_string(i); };

@@ -38,7 +38,8 @@ public:
     /// @param vertices  a random-access range; copied from
     /// @param position  projection to V; finite
     /// @param normal    projection to V; unit, photons on the other side do not count
-    /// Throws std::invalid_argument naming what cannot be.
+    /// Throws std::invalid_argument for options out of their ranges, and for a vertex whose position is not finite or
+    /// whose normal is not unit, with its index.
     template <std::ranges::random_access_range Vertices, class Position, class Normal>
     ProgressivePhotonMapping(const Vertices& vertices, Position position, Normal normal, ProgressiveOptions options)
         : alpha_(options.alpha) {
@@ -89,7 +90,7 @@ private:
         V position, normal;
         double radius2; ///< in double: thousands of passes multiply it
         double photons;
-        F flux; ///< τ: within the radius, as if each pass had emitted one photon; not divided by the area
+        F flux; ///< τ: of the photons within the radius, not yet divided by the number emitted and by the area
     };
 
     void add_to(Statistic& v, const PhotonMap<V, F>& map, double emitted) const {

@@ -21,10 +21,10 @@
 
 namespace nephroid::detail {
 
-/// The position of a sample on a Z-shaped curve through its light's domain [Morton 1966]. It has 16 bits: 8 of each
-/// coordinate of a point or directional light, 4 of each of an area light. The upper 8 bits select one of 256 parts of
-/// the domain and the lower 8 a position within it. Between them are 16 bits of the light's index, which keep the
-/// photons of a light together.
+/// The sort key of a sample, from its position on a Z-shaped curve through its light's domain [Morton 1966]. The
+/// position has 16 bits: 8 of each coordinate of a point or directional light, 4 of each of an area light. Its upper 8
+/// bits come first in the key and select one of 256 parts of the domain. Then come 16 bits of the light's index, which
+/// keep a light's photons together within a part, and last the lower 8 bits of the position.
 [[nodiscard]] constexpr std::uint32_t z_curve_key(const EmissionSample& sample) {
     const bool is_area = sample.coordinates > 2;
     const std::array<double, 4> coordinates = {sample.at[0], sample.at[1], sample.then[0], sample.then[1]};

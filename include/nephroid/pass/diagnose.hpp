@@ -64,7 +64,7 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
                              " on surface " + std::to_string(s.invalid_albedo_surface) +
                              ": the `weight` of Event::diffuse must be in [0, 1] in each band"});
     add(part_of(double(s[Fate::invalid].photons - s.invalid_albedos), emitted), 1e-3,
-        "the photons are invalid: a number of the hit or of `scatter` was none, a normal or direction was not unit "
+        "the photons are invalid: a number of the hit or of `scatter` was not finite, a normal or direction not unit "
         "(the photon needs both to 0.2%), a distance or weight negative, `eta` not positive, or the curvature's "
         "probes found nothing (`tracer_epsilon`)");
     add(part_of(double(s.hits_at_start), double(s.specular_events)), 0.01,

@@ -15,7 +15,8 @@
 
 namespace nephroid {
 
-/// The smoothing s if none is given, in first order and, in second order, for photons without usable neighbours.
+/// The smoothing s if none is given, in first order and for stored photons. Second order uses it only where neighbours
+/// contradict the fit, and for photons of an area light without enough neighbours.
 inline constexpr double default_smoothing = 8;
 
 /// Which photons a pass traces, and how large their footprints are.

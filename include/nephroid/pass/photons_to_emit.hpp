@@ -65,9 +65,9 @@ template <class S, class L, class Sequence, class E>
 /// @param limits        of the pass
 /// @param arguments     optional, in any order: the sequence of the pass, an executor. The result does not depend on
 ///                      the executor
-/// @return  0 if no photon of four million arrives, as there is no diffuse surface that a caustic falls on, or none of
-///          262,144 meets a mirror or glass: the light is not aimed at them. `diagnose` (pass/diagnose.hpp) of a short
-///          pass tells which
+/// @return  0 if no photon of 262,144 meets a mirror or glass (the light is not aimed at them), or if none of four
+///          million becomes a caustic photon (there is no diffuse surface where the caustic falls). `diagnose`
+///          (pass/diagnose.hpp) of a short pass tells which
 /// Throws std::invalid_argument if 10^18 photons or more would be needed. Cost: 4096 photons, up to four million if
 /// caustics are rare.
 template <class S, class L, class... Arguments>

@@ -35,7 +35,7 @@ public:
     EyePathMap(const Vertices& vertices, Position position, Normal normal, const Footprint& footprint = {})
         : tree_(
               std::size_t(std::ranges::size(vertices)),
-              [&](std::size_t i) -> V { return std::invoke(position, detail::vertex_at(vertices, i)); },
+              [&](std::size_t i) -> V { return std::invoke(position, detail::element_at(vertices, i)); },
               "nephroid::EyePathMap") {
         gather_normals(vertices, normal);
         std::vector<Box<T>> normals = describe_leaves();
@@ -90,7 +90,7 @@ private:
         for (auto& component : normals_)
             component.resize(tree_.slots());
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot) {
-            const V n = std::invoke(normal, detail::vertex_at(vertices, tree_.index(slot)));
+            const V n = std::invoke(normal, detail::element_at(vertices, tree_.index(slot)));
             if (!(abs(length2(n) - T(1)) < T(0.01)))
                 invalid_argument("nephroid::EyePathMap: vertex " + std::to_string(tree_.index(slot)) +
                                  " has the normal " + detail::text_of(n) + "; normals must be of unit length");

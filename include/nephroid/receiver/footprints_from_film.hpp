@@ -86,7 +86,7 @@ template <std::ranges::random_access_range Vertices, class Pixel, class Position
     const std::size_t count = std::size_t(std::ranges::size(vertices));
     std::vector<std::size_t> pixels(count);
     for (std::size_t i = 0; i < count; ++i) {
-        pixels[i] = std::size_t(std::invoke(pixel, detail::vertex_at(vertices, i)));
+        pixels[i] = std::size_t(std::invoke(pixel, detail::element_at(vertices, i)));
         if (pixels[i] >= width * height)
             invalid_argument("nephroid::footprints_from_film: vertex " + std::to_string(i) + " is in pixel " +
                              std::to_string(pixels[i]) + " of a film of " + std::to_string(width) + " x " +
@@ -96,14 +96,14 @@ template <std::ranges::random_access_range Vertices, class Pixel, class Position
 
     std::vector<PixelFootprint<V>> footprints(count, {zero_vector<V>(), zero_vector<V>()});
     for (std::size_t i = 0; i < count; ++i) {
-        const V at = std::invoke(position, detail::vertex_at(vertices, i));
-        const V n = std::invoke(normal, detail::vertex_at(vertices, i));
+        const V at = std::invoke(position, detail::element_at(vertices, i));
+        const V n = std::invoke(normal, detail::element_at(vertices, i));
         // The step to the nearest of another pixel's vertices that is on the same surface, in the tangent plane.
         const auto way_to = [&](std::size_t neighbour, bool is_on_film) {
             std::optional<V> way;
             if (is_on_film)
                 for (std::size_t k = by_pixel.begin(neighbour); k < by_pixel.end(neighbour); ++k) {
-                    const auto& other = detail::vertex_at(vertices, by_pixel[k]);
+                    const auto& other = detail::element_at(vertices, by_pixel[k]);
                     const V there(std::invoke(position, other) - at);
                     if (!detail::are_joined<V>(there, n, std::invoke(normal, other)))
                         continue;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/receiver/pixel_footprint.hpp"
+#include "nephroid/tree/element_at.hpp"
 
 #include <concepts>
 #include <functional>
@@ -58,18 +59,13 @@ struct ProjectedVector {
                   "nephroid: the position projection returns a number instead of a vector");
 };
 
-template <class Vertices>
-[[nodiscard]] decltype(auto) vertex_at(const Vertices& vertices, std::size_t i) {
-    return std::ranges::begin(vertices)[std::ranges::range_difference_t<const Vertices>(i)];
-}
-
 /// @param footprint  a projection of the vertices, or a range with one for each
 template <class Vertices, class Footprint>
 [[nodiscard]] auto footprint_of(const Vertices& vertices, const Footprint& footprint, std::size_t i) {
     if constexpr (std::ranges::range<const Footprint>)
-        return vertex_at(footprint, i);
+        return element_at(footprint, i);
     else
-        return std::invoke(footprint, vertex_at(vertices, i));
+        return std::invoke(footprint, element_at(vertices, i));
 }
 } // namespace detail
 

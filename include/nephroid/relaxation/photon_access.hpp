@@ -5,7 +5,6 @@
 #include "nephroid/emission/flux.hpp"
 #include "nephroid/vector/algebra.hpp"
 
-#include <cstddef>
 #include <functional>
 #include <ranges>
 #include <type_traits>
@@ -42,11 +41,6 @@ template <class Photons, class Access>
 using position_t = std::remove_cvref_t<projected_t<decltype(Access::position), Photons>>;
 template <class Photons, class Access>
 using flux_t = std::remove_cvref_t<projected_t<decltype(Access::flux), Photons>>;
-
-template <class Photons>
-[[nodiscard]] decltype(auto) photon_at(Photons& photons, std::size_t i) {
-    return std::ranges::begin(photons)[std::ranges::range_difference_t<Photons>(i)];
-}
 
 /// A projection that refers to a part of the photon which can be written: a value returned would only be a copy.
 template <class Projection, class Photons>

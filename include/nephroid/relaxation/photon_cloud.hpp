@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/relaxation/photon_access.hpp"
+#include "nephroid/tree/element_at.hpp"
 #include "nephroid/tree/point_tree.hpp"
 
 #include <algorithm>
@@ -59,14 +60,14 @@ public:
                 const char* who) requires ReadsPhotons<Access, Photons>
         : tree_(
               std::size_t(std::ranges::size(photons)),
-              [&](std::size_t i) -> V { return std::invoke(access.position, photon_at(photons, i)); }, who),
+              [&](std::size_t i) -> V { return std::invoke(access.position, element_at(photons, i)); }, who),
           cos_same_surface_(T(cos_same_surface)) {
         normals_.reserve(tree_.slots());
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
-            normals_.push_back(std::invoke(access.normal, photon_at(photons, tree_.index(slot))));
+            normals_.push_back(std::invoke(access.normal, element_at(photons, tree_.index(slot))));
         fluxes_.reserve(tree_.slots());
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
-            fluxes_.push_back(std::invoke(access.flux, photon_at(photons, tree_.index(slot))));
+            fluxes_.push_back(std::invoke(access.flux, element_at(photons, tree_.index(slot))));
         for (std::size_t slot = 0; slot < tree_.slots(); ++slot)
             check(slot, who);
     }
@@ -76,14 +77,14 @@ public:
         requires MovesPhotons<Access, Photons>
     void write_positions(Photons& photons, const Access& access, E& executor) const {
         for_each_slot(tree_, executor, [&](std::size_t slot) {
-            std::invoke(access.position, photon_at(photons, tree_.index(slot))) = tree_.origin() + position(slot);
+            std::invoke(access.position, element_at(photons, tree_.index(slot))) = tree_.origin() + position(slot);
         });
     }
     /// The same for normals.
     template <class Photons, class Access, class E>
     void write_normals(Photons& photons, const Access& access, E& executor) const {
         for_each_slot(tree_, executor, [&](std::size_t slot) {
-            std::invoke(access.normal, photon_at(photons, tree_.index(slot))) = normals_[slot];
+            std::invoke(access.normal, element_at(photons, tree_.index(slot))) = normals_[slot];
         });
     }
     /// The same for fluxes.
@@ -91,7 +92,7 @@ public:
         requires MovesPhotons<Access, Photons>
     void write_fluxes(Photons& photons, const Access& access, E& executor) const {
         for_each_slot(tree_, executor, [&](std::size_t slot) {
-            std::invoke(access.flux, photon_at(photons, tree_.index(slot))) = fluxes_[slot];
+            std::invoke(access.flux, element_at(photons, tree_.index(slot))) = fluxes_[slot];
         });
     }
 

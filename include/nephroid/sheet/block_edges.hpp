@@ -70,7 +70,7 @@ private:
         double below = 0, right = 0, above = 0, left = 0, diagonal = 0;
     };
 
-    /// A quad, or the darkness beside the block for j or i of −1 or beyond the last.
+    /// A quad, or one of zero density for j or i of −1 or beyond the last.
     [[nodiscard]] const Quad& beside(std::size_t j, std::size_t i) const { return quads_[j + 1][i + 1]; }
 
     /// Whether a quad is cut from its first corner to the opposite one. Neighbours alternate.
@@ -121,7 +121,7 @@ private:
         }
     }
 
-    /// Lists an edge, without a branch, unless the density does not jump there.
+    /// Lists an edge if the density jumps across it. Written without a branch.
     void add(const Corner& from, const Corner& to, double jump) {
         from_[count_] = number(from);
         to_[count_] = number(to);

@@ -45,8 +45,8 @@ public:
         if (outlines_.empty())
             return;
         ++account_.cut_cells;
-        // If each corner has exactly one end, so has all light between them. What would fall on bands too thin to hold
-        // a node is shared among the outlines.
+        // If each corner has exactly one end, all points of the cell are taken to have one: the light of bands too thin
+        // to hold a node is shared among the outlines.
         double covered = 0;
         for (const CellOutline<V, F>& outline : outlines_)
             covered += outline.area();

@@ -8,9 +8,9 @@
 
 namespace nephroid::detail {
 
-/// The change of place over one step along an axis of the lattice, world units: the central difference where both
-/// neighbours are on the sheet, the three-point one-sided one, (−3 x₀ + 4 x₁ − x₂)/2, where one is, else
-/// zero.
+/// The change of place over one step along an axis of the lattice, world units. With neighbours on the sheet on both
+/// sides it is the central difference; with two on one side, the one-sided (−3 x₀ + 4 x₁ − x₂)/2; with one
+/// alone, the step to it; with none, zero.
 ///
 /// If the changes on the two sides differ by more than four times and by more than two pixels, there is a crease that
 /// the normals do not show, and the shorter change is taken.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// @file  Draws the sheets of one chart: nodes are traced by sectors, cells become pieces by tiles, and pieces are
-///        added to the sums by leaves.
+/// @file  Draws the sheets of one chart: traces the nodes of one sector after the other, makes pieces of the cells of
+///        each tile, and adds the pieces to the sums of each leaf.
 #pragma once
 
 #include "nephroid/emission/chart/chart_light.hpp"

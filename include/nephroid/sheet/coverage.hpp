@@ -3,7 +3,7 @@
 ///
 /// In the footprint's own coordinates (s, t) it is the unit square. By Green's theorem the area of a polygon within the
 /// square is the sum over its edges of ∫ clamp(s, 0, 1) dt, t clamped to [0, 1] as well. Along an edge clamp(s) is
-/// piecewise linear, and its integral a difference of the same two numbers above and below a quotient: nothing cancels
+/// piecewise linear, and its mean is a quotient of two differences between the same two ends, so that no digits cancel
 /// [include/nephroid/README.md, "Exact coverage"].
 #pragma once
 

@@ -15,15 +15,15 @@
 
 namespace nephroid {
 
-/// Adds a lamp's caustics to the sums, as sheets between photons: for lamps with charts, and scenes that draw no random
-/// numbers, so that a path follows from where it begins.
+/// Adds a lamp's caustics to the sums, as sheets between photons: for lamps with charts, and for scenes that draw no
+/// random numbers, so that the point of emission determines a photon's path.
 ///
 /// @param scene      as for `caustics`; `SheetAccount::by_chance` counts where it asked for a random number
 /// @param light      one light or a set
 /// @param sums       what is added to
 /// @param pass       about `count` photons are traced in all: a sixteenth as a pilot, the others as corners of cells,
-///                   the regular ones first, then those of cells that are split. Where sheets end within cells a few
-///                   more look for where. A pass that is a part of a picture (`total` above `count`) draws the whole
+///                   the regular ones first, then those of cells that are split. A few more find where sheets end
+///                   within cells. A pass that is a part of a picture (`total` above `count`) draws the whole
 ///                   picture, with the weight count / total: all of its passes must have the same `count`, and `first`
 ///                   must be a multiple of it
 /// @param options    how finely sheets are drawn

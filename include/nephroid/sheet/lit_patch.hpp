@@ -44,7 +44,7 @@ struct PatchSag {
     }
 
     /// How near to a quad a vertex must be to lie on its surface, world units: a fiftieth of a pixel where the receiver
-    /// is flat, so that shelves stay apart, and in addition how much it bends over a quad and over a pixel.
+    /// is flat, so that light on a shelf misses the next one, plus how far the receiver bends over a quad and a pixel.
     [[nodiscard]] double thickness(double pixel, unsigned quads) const {
         return pixel / 50 + 2 * sag / quads + (std::min)(4 * curvature * pixel * pixel, pixel / 2);
     }

@@ -37,8 +37,8 @@ template <Vector3 V, Flux F>
 
 /// Whether two neighbours lie on one smooth piece of the receiver, from places and normals alone.
 ///
-/// With d from one to the other, d · n has opposite signs at the two ends of an arc and cancels to third order; across
-/// a step it has the same.
+/// Let d lead from one to the other. At the two ends of an arc d · n has opposite signs, and the sum is of third
+/// order; across a step both signs are the same.
 ///
 /// @param pixel  pixel() -> a pixel's side there, world units; called only where it matters
 template <Vector3 V, Flux F, class Pixel>

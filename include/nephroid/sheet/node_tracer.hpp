@@ -13,8 +13,8 @@
 
 namespace nephroid::detail {
 
-/// Stands in for random numbers: gives a scene a constant, and notes that it asked, as its paths then do not follow
-/// from where they begin.
+/// Stands in for random numbers: gives a scene a constant, and notes that it asked, because then the point of emission
+/// does not determine the photon's path.
 struct NoChance {
     bool is_asked = false;
 

@@ -126,7 +126,7 @@ private:
             block.middle[axis] = T(0.5 * (box.low[axis] + box.high[axis]));
         const Double3 middle{double(block.middle[0]), double(block.middle[1]), double(block.middle[2])};
         const Frame<Double3> plane = frame_about(normal);
-        // Corners are rounded once and shared, so that light that one quad loses its neighbour gains.
+        // Corners are rounded once and shared, so that what rounding takes from one quad its neighbour gains.
         for (std::size_t j = 0; j <= grid.rows; ++j)
             for (std::size_t i = 0; i <= grid.columns; ++i) {
                 const Double3 c = grid.corner[j][i] - middle;
@@ -158,7 +158,7 @@ private:
                            [&](std::uint32_t leaf) { return pixels_.leaves()[leaf].box.overlaps(reach); });
     }
 
-    /// Adds a triangle with too little area for a density.
+    /// Adds a triangle as a block of its own.
     template <class Visit>
     bool add_loose(const LooseTriangle& corners, const Double3& normal, const Double3& direction, const F& flux,
                    SheetPieces<V, F>& pieces, const Visit& visit) {

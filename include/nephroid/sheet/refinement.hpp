@@ -14,8 +14,9 @@ namespace nephroid {
 /// When blocks of cells are split. Those whose light no vertex sees never are.
 struct Refinement {
     unsigned levels = 6;     ///< times that a cell may be split into four, 0 to 10; 0: a regular grid
-    double tolerance = 0.06; ///< by how much a patch may miss a photon between its corners, in pixels; > 0
-    double relative = 0.01;  ///< the same, over the patch's size, as errors in place are errors in density; > 0
+    double tolerance = 0.06; ///< largest error in place of a patch between its corners, in pixels; > 0
+    double relative = 0.01;  ///< the same over the patch's longest side, > 0, as errors in place are errors in density.
+                             ///< The stricter of the two holds, but this one never asks for less than 0.02 pixels
 };
 
 namespace detail {
@@ -39,8 +40,7 @@ struct LatticeRange {
 struct Brightness {
     double mean = 0; ///< irradiance of the whole picture, about; 0: not known
 
-    /// How many times larger the errors of a patch may be, 1 to 8: the square root of a tenth of the mean over its
-    /// irradiance.
+    /// How many times larger the errors of a patch may be: sqrt(mean / (10 irradiance)), clamped to [1, 8].
     [[nodiscard]] double allowance(double irradiance) const {
         if (!(mean > 10 * irradiance))
             return 1;

@@ -24,7 +24,7 @@
 
 namespace nephroid::detail {
 
-/// One flat piece of a sheet: edges with jumps of density, or a single triangle with too little area for a density.
+/// One flat piece of a sheet: edges across which the density jumps, or a single `LooseTriangle`.
 template <Vector3 V, Flux F>
 struct SheetBlock {
     using T = scalar_t<V>;
@@ -42,7 +42,8 @@ struct SheetBlock {
     std::uint32_t triangle;                 ///< its index in SheetPieces
 };
 
-/// The corners, relative to the tree's origin, of a triangle that is added by the share of its area in a footprint.
+/// A triangle that is added by the share of its area in a footprint: a part of a cut cell, or one with too little area
+/// for a density. Its corners are relative to the tree's origin.
 using LooseTriangle = std::array<Double3, 3>;
 
 /// Blocks in the order in which they are added.

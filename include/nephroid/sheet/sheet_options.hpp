@@ -17,8 +17,8 @@ namespace nephroid {
 
 /// How light sheets are made.
 struct SheetOptions {
-    Tessellation tessellation{};
-    Refinement refinement{};
+    Tessellation tessellation{};  ///< how finely a patch is divided into flat quads
+    Refinement refinement{};      ///< how far cells are split where a sheet bends or ends
     std::size_t lamp_points = 64; ///< that stand for a lamp with area, >= 1
 };
 
@@ -48,7 +48,7 @@ NEPHROID_NOINLINE inline void check(const SheetOptions& options, const char* cal
 struct SheetStatistics {
     Statistics light;          ///< emitted.flux is the sum over all fates and `unresolved`
     SheetAccount sheets;       ///< how much of it is on sheets, and how well they could be drawn
-    double without_charts = 0; ///< power of lamps that have no charts: nothing is drawn of them
+    double without_charts = 0; ///< power of lamps that have no charts, in the unit of the flux: nothing of it is drawn
     double unresolved = 0; ///< flux of the nodes that landed, minus that of the sheets between them: above 0 for light
                            ///< that sheets miss, below 0 for light that they overestimate
 };

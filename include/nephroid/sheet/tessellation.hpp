@@ -22,7 +22,7 @@ namespace detail {
 /// What the number of quads depends on.
 struct PatchShape {
     double bend = 0;    ///< a quarter of the largest difference of a tangent and its chord, world units
-    double change = 0;  ///< of the signed area from corner to corner, over the largest
+    double change = 0;  ///< largest difference of the signed areas at the corners, over the largest area
     double longest = 0; ///< side, world units
 };
 

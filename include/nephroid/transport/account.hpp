@@ -74,12 +74,12 @@ struct Statistics {
     std::uint64_t corrected_normals = 0; ///< events that used the geometric normal, because the shading normal sent the
                                          ///< ray to the wrong side of the surface
     std::uint64_t hits_at_start = 0;  ///< surfaces met at the ray's origin: a surface that touches the one left, or the
-                                      ///< same surface again
+                                      ///< same surface again; not counted in scenes with Contacts
     std::uint64_t opaque_first = 0;   ///< photons whose first surface was neither a mirror nor glass
-    std::uint64_t escaped_first = 0;  ///< photons that met no surface at all
+    std::uint64_t escaped_first = 0;  ///< photons that escaped before any reflection, refraction or deposit
     std::uint64_t bounded_shifts = 0; ///< shifts of second-order splats that were shortened
-    std::uint64_t splatted_as_published = 0; ///< by second order, which found nothing better: where they landed, with
-                                             ///< footprints of s = 8 or of the pass's own s
+    std::uint64_t splatted_as_published = 0; ///< photons that second order left unshifted, with `default_smoothing`:
+                                             ///< neighbours contradicted the fit, or an area light had too few
     std::uint64_t bounded_footprints = 0;    ///< footprints that the excess or the collapse policy changed
     std::uint64_t invalid_albedos = 0; ///< photons that met an albedo that is negative, above 1 in a band, or no number
     double invalid_albedo = 0; ///< the first of these albedos, as the power of the flux it left over that before

@@ -22,9 +22,9 @@ namespace nephroid {
 /// is no air between water and its glass (with Media, transport/media.hpp), and light leaves a glass before it falls
 /// onto the table.
 ///
-/// Of the primitives that a ray has passed where surfaces touch, eight are remembered. Where a ray passes more, as in
-/// the middle of a fan of triangles, each one there that faces as the last one passed counts as passed, also one of
-/// another object: light misses an object that touches a glass just there.
+/// Eight of the primitives that a ray passes where surfaces touch are remembered. If it passes more, as in the middle
+/// of a fan of triangles, every primitive there that faces the same way as the last one counts as passed, even one of
+/// another object. Light then misses an object that touches a glass at just that point.
 ///
 /// ```cpp
 /// if (t > t_min && t < nearest && !contacts.leave_out(triangle, t, dot(direction, normal)))
@@ -38,13 +38,13 @@ public:
     /// @param cosine     between the ray's direction and the candidate's geometric normal, of either sign; it may be
     ///                   rough, as only its sign and the steepness of the ray matter
     [[nodiscard]] bool leave_out(std::uint64_t primitive, T distance, T cosine) const {
-        if (!is_here(distance, cosine)) // a ray cannot meet a flat surface twice, and a curved one only from behind
+        if (!is_here(distance, cosine)) // only a curved surface can be met again, and only from its other side
             return !(distance > T(0)) || (begins_on_surface_ && primitive == left_ && (cosine > T(0)) == along_normal_);
         return primitive == left_ || has_crossed(primitive) == forwards_ || is_beyond_memory(cosine);
     }
 
-    /// Whether `leave_out` may return true; computed without the cosine. A curved shape with a search of its own may
-    /// begin the search at `reach()` if the ray leaves this shape; it is then found again at low angles only.
+    /// Whether `leave_out` may return true; computed without the cosine. An iterative search for the intersection with
+    /// the shape that the ray leaves may begin at `reach()`: then only grazing rays find their own origin again.
     [[nodiscard]] bool may_leave_out(std::uint64_t primitive, T distance) const {
         return distance <= reach_ || (begins_on_surface_ && primitive == left_);
     }

@@ -15,11 +15,11 @@ namespace nephroid {
 /// @tparam N  tangents
 template <Vector3 V, Flux F, std::size_t N = 2>
 struct Deposit {
-    V position;
+    V position;  ///< world units
     V normal;    ///< geometric, unit, on the side that the photon came from
     V direction; ///< of flight, unit
-    F flux;
-    std::array<V, N> d_position; ///< in the tangent plane
+    F flux;      ///< of this photon alone: the light's power over the number of photons emitted, less what was lost
+    std::array<V, N> d_position; ///< in the tangent plane, world units: full lengths, of which s/2 are semi-axes
 };
 
 } // namespace nephroid

@@ -50,6 +50,9 @@ public:
         return false;
     }
 
+    /// @param medium    >= 0
+    /// @param priority  where media overlap the one of the highest priority fills the point, and of equal ones the one
+    ///                  that was entered last
     constexpr void enter(std::int32_t medium, std::int32_t priority = 0) {
         if (count_ == most)
             return;
@@ -70,7 +73,8 @@ public:
         return false;
     }
 
-    /// @param medium   bounded by the surface
+    /// @param medium   the one on the inner side of the surface
+    /// @param priority  of that medium, as for `enter`
     /// @param enters   whether the light arrives from outside of it. Light that leaves a medium not known here is taken
     ///                 to have come from that medium
     [[nodiscard]] constexpr Surface at_surface_of(std::int32_t medium, std::int32_t priority, bool enters) const;

@@ -35,7 +35,7 @@ template <class Way>
 class PendingWays {
 public:
     /// Divides a photon's flux among all ways at a surface. The photon keeps the first way's share, and the other ways
-    /// are pushed. What no way carries is booked as absorbed, and ways without enough flux or room as ended.
+    /// are pushed. What no way carries is booked as absorbed, and ways without enough flux or room as terminated.
     ///
     /// @param steps  the photon, at the hit
     /// @param path   up to the hit

@@ -6,20 +6,22 @@
 
 namespace nephroid {
 
+/// What happens to a photon at a surface: `Scattering::event`.
 enum class Event : unsigned char {
     absorb,  ///< the photon ends
     reflect, ///< mirror reflection
     refract, ///< into the other medium; beyond the critical angle the walk reflects instead
-    deposit, ///< the surface is diffuse (or glossy): the photon is splatted here and ends
+    deposit, ///< the surface is diffuse (or glossy): the photon is deposited, and ends unless a visitor sends it on
     pass,    ///< light does not notice this surface, such as one inside of water: the photon goes on, into `medium`
     diffuse, ///< as deposit, and the surface scatters the share `weight`, its albedo in [0, 1], in all directions.
              ///< Where light between diffuse surfaces is not asked for, the photon ends
 };
 
 /// The result of a scene's `scatter`. Your own type with these members will do as well. `eta` is only read for
-/// Event::refract. A type may also have the members `medium` (which a refracted ray enters, for scenes with
-/// absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent). In a scene without glass the
-/// type may leave out `eta` and declare `static constexpr bool refracts = false`; then no refraction is compiled.
+/// Event::refract. A weight that is negative or not finite in a band, and an `eta` that is not positive and finite, end
+/// the photon as Fate::invalid. A type may also have the members `medium` (which a refracted ray enters, for scenes
+/// with absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent). In a scene without glass
+/// the type may leave out `eta` and declare `static constexpr bool refracts = false`; then no refraction is compiled.
 ///
 /// Whether a ray enters an object is best seen from normals that point out of it: dot(direction, normal) < 0. In a
 /// renderer whose normals always face the ray this is always true; use its own "front face" flag instead.

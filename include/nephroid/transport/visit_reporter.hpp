@@ -54,7 +54,7 @@ public:
             visitor_.meet(hit, from_front, passed);
     }
 
-    /// The visitor's `deposit`: returns what it returns.
+    /// Calls the visitor's `deposit`, and returns its result.
     decltype(auto) deposit(const Deposit<V, F, N>& deposit) { return visitor_.deposit(deposit, path_); }
 
     /// The photon is about to leave a surface, with the direction of its next ray.

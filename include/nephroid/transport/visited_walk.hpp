@@ -43,7 +43,7 @@ public:
 private:
     static constexpr bool all_ways = follows_all_ways<Visitor>;
     static constexpr bool branches = all_ways && ScattersAllWays<S, V>;
-    // Bounds on what only a mistake of the renderer's tracer repeats without end.
+    // Bounds on loops that only a faulty ray tracer makes endless.
     static constexpr unsigned most_lamp_surfaces = 4; ///< that a photon leaves at its start: both sides of thin lamps
     static constexpr unsigned most_passed = 1000;     ///< surfaces that light does not notice
     static constexpr unsigned most_edges = 64; ///< between triangles; a ray through a vertex meets many triangles
@@ -99,7 +99,7 @@ private:
         }
     }
 
-    /// Does at a surface what one scattering says.
+    /// Carries out one scattering at a surface.
     ///
     /// @tparam is_weighted  whether the photon's flux is already the way's share
     template <bool is_weighted, class Scattering>

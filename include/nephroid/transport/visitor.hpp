@@ -18,8 +18,8 @@ namespace nephroid {
 /// A visitor has some of these members. What it does not have is not compiled.
 ///
 /// - `flight(flight)`: called at the start of each flight (transport/flight.hpp), also of those that leave the scene
-/// - `meet(hit, from_front, passed)`: called for each surface, as soon as it is known whether the photon goes on
-///   through the surface; last for the one on which the photon is deposited
+/// - `meet(hit, from_front, passed)`: called at each reflection and refraction, as soon as it is known whether the
+///   photon goes on through the surface, and last at the surface of a deposit; not for Event::absorb and Event::pass
 /// - `deposit(deposit, path)`: called for each deposit, with its `WalkedPath`. If it returns void, the photon ends, and
 ///   the visitor's owner books the flux. If it returns std::optional<Photon<V, F, N>>, that photon goes on from the
 ///   deposit's position, and the walk books the loss of flux as absorbed; without a photon it is as for void

@@ -22,8 +22,8 @@ namespace nephroid {
 /// @param photon   as emitted; changed by the walk
 /// @param sampler  the photon's own stream of numbers, from which the scene and Russian roulette draw
 /// @param limits   on the path
-/// @param account  gets the photon's flux under its fate, except for deposits, which the caller books. With these, the
-///                 fates add up to the emitted flux, and to `emitted` and `branches` photons
+/// @param account  gets the photon's flux under its fate, except for deposits, which the caller books. Then the fates'
+///                 fluxes add up to the emitted one, and their photons to `emitted.photons` + `branches`
 /// @param visitor  its members for flights, surfaces and deposits are called (transport/visitor.hpp)
 /// @return  void if the visitor takes the deposits; otherwise as below
 /// Does not throw unless the scene or the visitor does.

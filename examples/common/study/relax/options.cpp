@@ -70,7 +70,7 @@ Arguments::Arguments(CLI::App& app) : rho_(RelaxationOptions{}.rho) {
                  "Instead of pictures: what relaxing so many random photons of the pattern uniform costs");
     app.add_option("--photons", photons_, "In a pattern's picture, or caustic photons of a scene [50000]");
     app.add_option("--sequence", sequence_,
-                   "halton|sobol|random: where the photons come from, or several, such as random,halton [halton]");
+                   "halton|sobol|r2|random: where the photons come from, or several, such as random,halton [halton]");
     app.add_option("--seed", seed_, "Of the sequence [0]");
     app.add_option("--iterations", iterations_, "Of the relaxation [20]; random photons want 30 to 50");
     app.add_option("--keep-density", keep_,

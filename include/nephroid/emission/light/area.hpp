@@ -33,8 +33,8 @@ public:
 
     /// @param radiance  flux per area and steradian
     /// @param target    bounds of what the light is aimed at, if any
-    /// @param middle    the middle of the light and its normal there: directions as a function of the samples differ
-    ///                  least from those around it
+    /// @param middle    the middle of the light, with its normal. Directions are drawn in frames that are turned from
+    ///                  the frame here, so that they are continuous up to a right angle from its axis
     AreaEmission(const F& radiance, const std::optional<BoundingSphere<V>>& target, const LightPoint<V>& middle)
         : radiance_(radiance), target_(target), axis_(middle.normal) {
         if (target_) {

@@ -18,10 +18,11 @@ public:
     static constexpr EmissionDomain domain{.coordinates = 4};
 
     struct Options {
-        V centre;
+        V centre;   ///< world units, finite
         V normal;   ///< on the side that emits, any length but zero
         T radius;   ///< world units, > 0
         F radiance; ///< flux per area and steradian, >= 0
+        /// Bounds of what the photons are aimed at, with a radius > 0; without them the light sends all of its light.
         std::optional<BoundingSphere<V>> target = std::nullopt;
     };
 
@@ -47,7 +48,7 @@ public:
         return emission_.domain({Kinks::diagonals, DomainEdge::ends}, middle_.position, radius_);
     }
 
-    /// The charts of one point of the light, which emits a share of the light's flux.
+    /// The charts of one point of the light, which emits a share of the light's flux, in (0, 1].
     ///
     /// @param u1,u2  choose the point, in [0, 1]
     [[nodiscard]] EmissionCharts<V, F> charts_at(T u1, T u2, T share) const {

@@ -28,10 +28,12 @@ public:
     struct Options {
         std::vector<Triangle> triangles; ///< vertices, world units; triangles without area are left out
         F radiance;                      ///< flux per area and steradian, >= 0
+        /// Bounds of what the photons are aimed at, with a radius > 0; without them the light sends all of its light.
         std::optional<BoundingSphere<V>> target = std::nullopt;
     };
 
-    /// Throws std::invalid_argument for a vertex that is not finite, no area at all, a negative radiance.
+    /// Throws std::invalid_argument for a vertex that is not finite, no area at all, a negative radiance, a
+    /// target whose radius is not positive.
     explicit MeshLight(const Options& options) : MeshLight(options, validated(options)) {}
 
     template <SampleSource<T> S>

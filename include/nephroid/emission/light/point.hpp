@@ -33,8 +33,9 @@ public:
     static constexpr EmissionDomain domain{.coordinates = 2};
 
     struct Options {
-        V position;
+        V position;  ///< world units, finite
         F intensity; ///< flux per steradian, >= 0
+        /// Bounds of what the photons are aimed at, with a radius > 0; without them the light sends all of its light.
         std::optional<BoundingSphere<V>> target = std::nullopt;
     };
 

@@ -18,14 +18,16 @@ public:
     static constexpr EmissionDomain domain{.coordinates = 4};
 
     struct Options {
-        V corner;
+        V corner;   ///< world units, finite
         V edge_u;   ///< from the corner, world units
         V edge_v;   ///< from the corner, world units; not parallel to edge_u
         F radiance; ///< flux per area and steradian, >= 0
+        /// Bounds of what the photons are aimed at, with a radius > 0; without them the light sends all of its light.
         std::optional<BoundingSphere<V>> target = std::nullopt;
     };
 
-    /// Throws std::invalid_argument for a parameter that is not finite, no area, a negative radiance.
+    /// Throws std::invalid_argument for a parameter that is not finite, no area, a negative radiance, a target
+    /// whose radius is not positive.
     explicit QuadLight(const Options& options) : QuadLight(options, validated_normal(options)) {}
 
     template <SampleSource<T> S>
@@ -48,7 +50,7 @@ public:
                                 T(0.5) * (length(edge_u_) + length(edge_v_)));
     }
 
-    /// The charts of one point of the light, which emits a share of the light's flux.
+    /// The charts of one point of the light, which emits a share of the light's flux, in (0, 1].
     ///
     /// @param u1,u2  choose the point, in [0, 1]
     [[nodiscard]] EmissionCharts<V, F> charts_at(T u1, T u2, T share) const {

@@ -19,10 +19,12 @@ public:
     static constexpr EmissionDomain domain{.coordinates = 4};
 
     struct Options {
-        V centre;
-        T radius;                                               ///< world units, > 0
-        F radiance;                                             ///< flux per area and steradian, >= 0
-        std::optional<BoundingSphere<V>> target = std::nullopt; ///< not inside of the light
+        V centre;   ///< world units, finite
+        T radius;   ///< world units, > 0
+        F radiance; ///< flux per area and steradian, >= 0
+        /// Bounds of what the photons are aimed at, with a radius > 0 and not all inside of the light; without them the
+        /// light sends all of its light.
+        std::optional<BoundingSphere<V>> target = std::nullopt;
     };
 
     /// Throws std::invalid_argument for a parameter outside of the ranges above.
@@ -50,7 +52,7 @@ public:
         return exact;
     }
 
-    /// The charts of one point of the light, which emits a share of the light's flux.
+    /// The charts of one point of the light, which emits a share of the light's flux, in (0, 1].
     ///
     /// @param u1,u2  choose the point, in [0, 1]
     [[nodiscard]] EmissionCharts<V, F> charts_at(T u1, T u2, T share) const {

@@ -18,11 +18,12 @@ public:
     static constexpr EmissionDomain domain{.coordinates = 2};
 
     struct Options {
-        V position;
+        V position;  ///< world units, finite
         V axis;      ///< the direction in which it shines, any length but zero
         T cos_inner; ///< within this angle of the axis the intensity is full; in (cos_outer, 1]
         T cos_outer; ///< beyond this angle it is zero; in [-1, cos_inner)
         F intensity; ///< flux per steradian on the axis, >= 0
+        /// Bounds of what the photons are aimed at, with a radius > 0; without them the light sends all of its light.
         std::optional<BoundingSphere<V>> target = std::nullopt;
     };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  Where the photons of one path end in the domain of an area light.
+/// @file  The border of a path group in the domain of an area light.
 #pragma once
 
 #include "nephroid/smoothing/second_order/area_cells.hpp"

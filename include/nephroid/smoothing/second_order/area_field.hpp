@@ -39,7 +39,7 @@ public:
     AreaField(const Photons& photons, const FieldOptions& options, E& executor)
         : AreaField(AreaPhotons(PathSamples(photons)), options, TaskRunner(executor)) {}
 
-    /// @return  nothing where the photons determine nothing: there are too few, or none took this path
+    /// @return  nothing where the cell's photons are too few, or most of them took another path
     [[nodiscard]] std::optional<FieldSample> at(const EmissionSample& drawn, const EmissionFrame& frame,
                                                 std::uint32_t signature) const {
         const AreaSample sample = area_sample(drawn);

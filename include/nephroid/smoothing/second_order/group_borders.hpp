@@ -33,8 +33,8 @@ namespace nephroid::detail {
     return ends;
 }
 
-/// Sets the border of the group in or beside a cell. It lies behind the outermost photon around, in the direction in
-/// which photons are missing. If they are missing in no direction more than in others, the border is all around.
+/// Sets the border of the group in or beside a cell: at the outermost photon nearby, in the direction in which photons
+/// are missing. If as many are missing in every direction, the border gets no direction and lies half a cell away.
 inline void mark_border(GroupCell& cell, const EmissionCells& grid, const PathSamples& photons) {
     const auto middle = grid.middle(cell.square);
     const double side = std::sqrt(std::abs(cell.to_frame.determinant()) / double(grid.size()));
@@ -100,7 +100,7 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
     }
 }
 
-/// Where the border lies of a cell that has one in or beside it, in emission coordinates.
+/// A point of the border of a cell that has one in or beside it, in emission coordinates.
 [[nodiscard]] inline std::optional<std::array<double, 2>> border_point(const GroupCell& cell,
                                                                        const EmissionCells& grid) {
     if (!std::isfinite(cell.border_distance) || !(std::abs(cell.to_frame.determinant()) > 0))
@@ -141,7 +141,7 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
             last = here;
             continue;
         }
-        // Between the last cell and this square, or where the last cell has its own border in this direction.
+        // The border is where the last cell marked it, if it did, and otherwise between that cell and this square.
         const double between = at - step;
         if (const auto border = border_point(*last, grid)) {
             const double found = inner(direction, cell.to_frame(grid.step_between(middle, *border)));
@@ -152,8 +152,8 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
     return endless;
 }
 
-/// Finds for each cell that has a border how far the border is across that one: in a corner of the group, or in a
-/// group that is no wider than footprints, both bound them.
+/// Finds for each cell with a border a second one, in a direction perpendicular to the first. Both bound the footprints
+/// in a corner of the group, and in a group that is narrower than a footprint.
 inline void find_borders_across(GroupCells& cells, double largest_radius) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         GroupCell& cell = cells[i];

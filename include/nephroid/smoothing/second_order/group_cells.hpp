@@ -37,8 +37,8 @@ struct GroupCell {
     double border_distance = std::numeric_limits<double>::infinity(); ///< from the middle, in the frame's units;
                                                                       ///< negative beyond the border
     Plane2 border_direction{};                                        ///< unit, or 0 where the border is all around
-    double across_distance = std::numeric_limits<double>::infinity(); ///< to the border in the nearer of the two
-    Plane2 across_direction{};                                        ///< directions across the former, likewise
+    double across_distance = std::numeric_limits<double>::infinity(); ///< to a second border, across the first
+    Plane2 across_direction{};                                        ///< towards it, unit; 0 if there is none
 };
 
 /// One of the four squares whose middles surround a sample.

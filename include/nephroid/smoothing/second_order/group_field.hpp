@@ -98,9 +98,9 @@ public:
 
 private:
     /// Whether photons contradict the map in more than a quarter of the cells, and the footprints there have more area
-    /// than the published ones. (Smaller ones are no worse than those where the map is wrong.) Then no footprint of the
-    /// group is trusted, since those of other cells reach into these. With few cells nothing is concluded: each spans
-    /// so much of a smooth map that photons contradict its fit as well.
+    /// than the published ones; footprints with less do no more harm than those. Then no footprint of the group is
+    /// trusted, since those of other cells reach into these. With few cells nothing is concluded: each spans so much of
+    /// a smooth map that photons contradict its fit as well.
     [[nodiscard]] bool are_shapes_contradicted() const {
         constexpr double most = 0.25;
         constexpr std::size_t fewest = 256;

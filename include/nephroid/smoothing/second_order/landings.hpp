@@ -30,10 +30,10 @@ public:
 
     /// Whether the photons landed elsewhere than the map says.
     ///
-    /// Only the point's own place is fitted to theirs. They contradict the map if they miss it by more than a part of
-    /// their distances from the point, and by more than twice what the scatter of their tangents explains. Distances
-    /// follow from the tangents' lengths, not from the landing points, because at a fold the map takes some steps
-    /// nowhere.
+    /// The map is first moved so that it fits the landing points on average. The points contradict it if they still
+    /// miss it by more than a part of the distances that it predicts, and by more than twice what the scatter of the
+    /// tangents explains. The distances come from the tangents' lengths, not from the landing points, because at a fold
+    /// some steps in the domain do not move the landing point.
     ///
     /// @param map           derivatives at the point, fitted to tangents
     /// @param largest_part  of the root mean square distance, >= 0

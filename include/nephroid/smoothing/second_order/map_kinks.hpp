@@ -26,9 +26,9 @@ struct MapKinks {
 
 /// The kinks among some photons, from their `tangent_jumps`. A line through them of length |δ| crosses a kink with
 /// a chance in proportion to |δ|, however large the kink is, so that |J⁻¹ΔJ|²/|δ| has the same mean for any
-/// distance δ of the nearest photon. A smooth map has almost none. Of photons in one cell, those beside its border
-/// may have their nearest neighbour in the next cell, which is not seen: up to a third of the pairs, and of the
-/// kinks, in a cell of nine.
+/// distance δ of the nearest photon. In a smooth map it is almost 0. Only photons of one cell are compared: beside its
+/// border the nearest one may be in the next cell, so that in a cell of nine up to a third of the pairs, and of the
+/// kinks, are missed.
 ///
 /// Jumps of more than a third of the tangents count the less the larger they are. Where a map is singular (the rim of a
 /// ball) all photons differ by as much, and smaller footprints would only show single photons.

@@ -167,7 +167,7 @@ private:
             done.push_back(group);
             const auto is_in_group = [&](std::uint32_t photon) { return group_of[photon] == group; };
             const auto members = double(std::count_if(around.begin(), around.end(), is_in_group));
-            // Pairs of neighbours of which one is in the group: counted, and expected if paths were chosen by chance.
+            // Pairs of neighbours with one photon in the group: as found, and as expected if chance chose each path.
             double mixed_pairs = 0;
             for (const std::uint32_t photon : around)
                 for (std::uint32_t k = 0; k < neighbours[photon].count; ++k)

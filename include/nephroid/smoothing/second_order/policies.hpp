@@ -16,11 +16,12 @@ namespace nephroid {
 /// Bounds of the footprints that are chosen, in units of u0. With a radius of u0, all footprints together cover the
 /// light's domain once.
 struct SmoothingBounds {
-    double least = 5;           ///< lower bound of s: smaller footprints show single photons
-    double least_radius = 2;    ///< in any direction: photons are not stratified across thinner footprints
-    double largest_radius = 32; ///< in any direction: larger footprints cost more than they gain. For more than 80,000
-                                ///< photons it grows with their square root, as a constant part of the light's domain
-    double stretch = 8;         ///< upper bound of the longest over the shortest radius
+    double least = 5;           ///< lower bound of s, > 0: smaller footprints show single photons
+    double least_radius = 2;    ///< in any direction, > 0: photons are not stratified across thinner ones
+    double largest_radius = 32; ///< in any direction, >= least_radius: larger footprints cost more than they gain. For
+                                ///< more than 80,000 photons it grows with their square root, as a constant part of
+                                ///< the light's domain
+    double stretch = 8;         ///< upper bound of the longest over the shortest radius, >= 1
 };
 
 /// The bounds for a number of photons. If `largest_radius` did not grow, the noise of random photons would not fall
@@ -35,14 +36,14 @@ struct SmoothingBounds {
 struct SecondOrder {
     static constexpr bool uses_neighbours = true;
     SmoothingBounds bounds{};
-    double largest_shift =
-        0.125;                 ///< over the longer half tangent of the new footprint; longer shifts are shortened and
-                               ///< counted (`Statistics::bounded_shifts`). The part of the shift due to footprints
-                               ///< that change is limited to a quarter of the footprint as well
-    double largest_miss = 0.1; ///< how far neighbours may land from where fitted tangents predict, over how far apart
-                               ///< they land. If they often miss by more, as on facets, their path's photons are
-                               ///< splatted as published and counted (`Statistics::splatted_as_published`). Infinity:
-                               ///< never. Has no effect if the pass gives a smoothing or the domain repeats
+    double largest_shift = 0.125; ///< over the longer half tangent of the new footprint, >= 0; longer ones are cut and
+                                  ///< counted (`Statistics::bounded_shifts`). The part of the shift due to footprints
+                                  ///< that change is limited to a quarter of the footprint as well
+    /// How far neighbours may land from where fitted tangents predict, over the distance that the tangents' lengths
+    /// predict, >= 0. If more than a quarter of a path's cells miss by more, as on facets, its photons are splatted as
+    /// published and counted (`Statistics::splatted_as_published`). Infinity: never. Has no effect on area lights, if
+    /// the pass gives a smoothing, or if the domain repeats.
+    double largest_miss = 0.1;
     std::uint64_t pilot = 1u << 16; ///< how many of the pass's first photons the footprints are chosen from, >= 1
     bool domain_repeats = false; ///< whether the scene repeats over the light's patch (a tile of endless water, say),
                                  ///< so that opposite borders of the patch are neighbours; has no effect on area lights

@@ -22,7 +22,7 @@ namespace nephroid::detail {
 /// What became of a photon's footprint.
 struct AppliedFootprint {
     bool shortened = false;    ///< whether its shift was
-    bool as_published = false; ///< whether its neighbours did not say enough, so that it is splatted to first order
+    bool as_published = false; ///< whether it counts as `Statistics::splatted_as_published`
 };
 
 /// Chooses the footprints of a pass's photons.

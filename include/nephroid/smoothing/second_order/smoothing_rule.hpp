@@ -62,7 +62,7 @@ struct PhotonDensity {
     // Without kinks and with either variance alone s¹² is stratified/(2 g²), and s¹⁰ random/(4 g²).
     const double g2 = g * g;
     double s = (std::max)(std::pow(stratified / (2 * g2), 1.0 / 12), std::pow(random / (4 * g2), 1.0 / 10));
-    // Newton's method for log of the growing part of s d/ds over the falling one, in log s: its slope is 3 to 12.
+    // At the minimum `grows` equals `falls`: Newton's method in log s for log(grows / falls), whose slope is 3 to 12.
     for (int step = 0; step < 8; ++step) {
         const double s2 = s * s, s4 = s2 * s2;
         const double bend = 8 * g2 * s4 * s4, kink = k * s, grows = bend + kink;
@@ -75,9 +75,9 @@ struct PhotonDensity {
 
 /// S from log Q.
 ///
-/// Where a share p of the photons takes a path, each stands for 1/p times as much of the domain, and the rule holds in
-/// that unit. The bounds do not, because wide footprints of few photons would spill over edges. If chance selects a
-/// share of stratified photons, the variance is 1.8 (1 − p)/s² + 2.8 p²/s⁴.
+/// Where a share p of the photons takes a path, each stands for 1/p times as much of the domain. The rule is applied in
+/// that unit, u0/√p. The bounds stay in u0, because wide footprints of few photons would spill over edges. If chance
+/// selects a share of stratified photons, the variance is 1.8 (1 − p)/s² + 2.8 p²/s⁴.
 ///
 /// @param kinks  κ, squared jumps per u0 (`MapKinks::density`)
 [[nodiscard]] inline Symmetric2 shape_tensor(const Symmetric2& log_q, const PhotonDensity& density,

@@ -20,10 +20,11 @@ struct TangentResidual {
 /// From a photon to the one nearest to it.
 struct TangentJump {
     double size2 = 0; ///< |J⁻¹ΔJ|², ΔJ the difference between the residuals of the two
-    double distance2 = std::numeric_limits<double>::infinity(); ///< of their emission coordinates, per u0²; > 0
+    double distance2 = std::numeric_limits<double>::infinity(); ///< between their emission coordinates, in u0²; > 0
 };
 
-/// One for each photon; no jump at an infinite distance where no other photon is at a distance.
+/// One jump for each photon: from it to its nearest neighbour. A photon that is alone, or that coincides with its
+/// neighbour, gets a jump of 0 at an infinite distance.
 [[nodiscard]] inline std::vector<TangentJump> tangent_jumps(const std::vector<TangentResidual>& photons) {
     const auto distance2_between = [](const TangentResidual& a, const TangentResidual& b) {
         double sum = 0;

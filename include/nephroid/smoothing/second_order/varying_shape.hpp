@@ -29,7 +29,7 @@ struct VaryingShape {
     /// Reduces the radius ρ along a unit direction n, ρ² = n·S n, to less than a limit m, and keeps it across.
     ///
     /// ρ becomes (ρ⁻⁴ + m⁻⁴)^(−1/4), which is smooth in both. With the lesser of the two instead, the shift
-    /// would jump where they are equal, and the light would have an edge there. Limits from 2.9 ρ on, which would
+    /// would jump where they are equal, and the light would have an edge there. Limits of 2.83 ρ or more, which would
     /// shorten ρ by 0.4% or less, change nothing.
     /// @param slope  derivatives of the limit by u and v
     void bound_along(Plane2 n, double limit, Plane2 slope) {
