@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// expect: the sink of Illumination::for_each cannot be called as sink(std::size_t vertex, const F& caustic, const F& indirect)
+// expect: the sink of Illumination::for_each cannot be called as sink(std::size_t vertex, const F& caustic
 #include "messages/renderer.hpp"
 
 #include "nephroid/illuminate.hpp"
