@@ -41,7 +41,7 @@ struct IlluminationStatistics {
 
 namespace detail {
 /// The radius that was chosen is best for one pass by itself. The mean of passes keeps their bias and loses their
-/// noise, so that disks of the passes after it begin with this share of the radius: 0.84 / sqrt(Γ(5/3))
+/// noise, so that disks of the passes after it begin with this share of the radius: 0.84 sqrt(Γ(5/3))
 /// (include/nephroid/README.md, "Coverage").
 inline constexpr double radius_of_later_passes = 0.8;
 } // namespace detail

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "nephroid/footprint/kernel_mass.hpp"
-#include "nephroid/receiver/turns.hpp"
+#include "nephroid/receiver/compass.hpp"
 
 #include <algorithm>
 #include <array>
@@ -19,7 +19,7 @@ class DistanceTable {
 public:
     /// @param reach  the largest distance, world units; what is that far counts as free
     DistanceTable(std::size_t slots, std::size_t directions, T reach)
-        : directions_(directions), reach_(reach), between_(directions_by_turn(directions)),
+        : directions_(directions), reach_(reach), between_(directions_by_compass(directions)),
           distances_(slots * directions, most), nearest_(slots, reach) {}
 
     [[nodiscard]] T reach() const { return reach_; }
@@ -58,9 +58,9 @@ public:
     /// Whether a place is closer than the end of the surface in its direction. Between two directions the end is taken
     /// to lie on a straight line; if their distances differ by far, to jump in the middle.
     ///
-    /// @param turn  of the place, see `turn_about`
-    [[nodiscard]] bool is_before_end(std::size_t slot, T distance2, std::int32_t turn) const {
-        const BetweenDirections at = between_[std::size_t(turn)];
+    /// @param point  of the compass, of the place, see `compass_point`
+    [[nodiscard]] bool is_before_end(std::size_t slot, T distance2, std::int32_t point) const {
+        const BetweenDirections at = between_[std::size_t(point)];
         const std::uint16_t* const distances = distances_.data() + slot * directions_;
         const T a = T(distances[at.before]), b = T(distances[at.after]), share = T(at.share), unit = reach_ / T(most);
         if (a > T(4) * b || b > T(4) * a)
@@ -75,7 +75,7 @@ private:
 
     std::size_t directions_;
     T reach_;
-    std::array<BetweenDirections, turns + 1> between_;
+    std::array<BetweenDirections, compass_points + 1> between_;
     std::vector<std::uint16_t> distances_; ///< by slot, then direction
     std::vector<T> nearest_;               ///< by slot
 };

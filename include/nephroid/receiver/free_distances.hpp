@@ -6,7 +6,7 @@
 #include "nephroid/receiver/distance_table.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
 #include "nephroid/receiver/surface_probe.hpp"
-#include "nephroid/receiver/turns.hpp"
+#include "nephroid/receiver/compass.hpp"
 
 #include <algorithm>
 #include <array>
@@ -87,9 +87,9 @@ public:
         const T distance2 = length2(offset);
         return !table_.ends_within(slot, distance2) ||
                table_.is_before_end(slot, distance2,
-                                    detail::turn_about(map_->normal_x()[slot], map_->normal_y()[slot],
-                                                       map_->normal_z()[slot], T(t::x(offset)), T(t::y(offset)),
-                                                       T(t::z(offset))));
+                                    detail::compass_point(map_->normal_x()[slot], map_->normal_y()[slot],
+                                                          map_->normal_z()[slot], T(t::x(offset)), T(t::y(offset)),
+                                                          T(t::z(offset))));
     }
 
     /// Clears the weights of the vertices of a leaf that a place does not belong to.
@@ -118,12 +118,12 @@ public:
         }
         if (!(asks > T(0)))
             return;
-        std::array<std::int32_t, PointTree<V>::leaf_size> turn;
+        std::array<std::int32_t, PointTree<V>::leaf_size> point;
         for (std::size_t i = 0; i < size; ++i)
-            turn[i] = detail::turn_about(nx[i], ny[i], nz[i], x - px[i], y - py[i], z - pz[i]);
+            point[i] = detail::compass_point(nx[i], ny[i], nz[i], x - px[i], y - py[i], z - pz[i]);
         for (std::size_t i = 0; i < at.size; ++i)
             if (weights[i] > T(0) && table_.ends_within(at.first + i, distance2[i]) &&
-                !table_.is_before_end(at.first + i, distance2[i], turn[i]))
+                !table_.is_before_end(at.first + i, distance2[i], point[i]))
                 weights[i] = T(0);
     }
 
