@@ -15,7 +15,7 @@
 
 namespace nephroid::tests::compass_test {
 
-// A point is 1/1024 of the square, at most π/2 times as much of the turn (beside the axes): half of that, in directions.
+// A point is 1/1024 of the square, at most π/2 times as much of the turn beside the axes: half of that, in directions.
 TEST_CASE("compass: an offset lies between the directions that its angle lies between") {
     using V = glm::dvec3;
     const RandomSequence random(31);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/pass/traced_batch.hpp"
+#include "nephroid/smoothing/compared_with_published.hpp"
 #include "nephroid/smoothing/cross_validation.hpp"
 #include "nephroid/smoothing/pilot.hpp"
 #include "nephroid/smoothing/second_order/curved_footprints.hpp"
@@ -67,6 +68,9 @@ Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& 
         if (!pass.smoothing)
             footprints.set_smoothing_without_neighbours(smoothing_without_neighbours<decltype(footprints)>(
                 sums, policies, pilot, pass, Sequence::stratified, executor));
+    if constexpr (emission_domains<L>.four)
+        if (!pass.smoothing && is_published_better(sums, policies, pilot, footprints, pass, executor))
+            footprints.splat_area_lamps_as_published();
     Splatter splatter(sums, policies);
     TracedBatch<traced_photon_t<L>> batch;
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {

@@ -79,7 +79,8 @@ struct Statistics {
     std::uint64_t escaped_first = 0;  ///< photons that escaped before any reflection, refraction or deposit
     std::uint64_t bounded_shifts = 0; ///< shifts of second-order splats that were shortened
     std::uint64_t splatted_as_published = 0; ///< photons that second order left unshifted, with `default_smoothing`:
-                                             ///< neighbours contradicted the fit, or an area light had too few
+                                             ///< neighbours contradicted the fit, an area light had too few, or
+                                             ///< its photons predict each other better so
     std::uint64_t bounded_footprints = 0;    ///< footprints that the excess or the collapse policy changed
     std::uint64_t invalid_albedos = 0; ///< photons that met an albedo that is negative, above 1 in a band, or no number
     double invalid_albedo = 0; ///< the first of these albedos, as the power of the flux it left over that before

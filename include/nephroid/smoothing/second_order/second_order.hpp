@@ -48,6 +48,9 @@ public:
     /// `default_smoothing`.
     void set_smoothing_without_neighbours(double smoothing) { smoothing_without_neighbours_ = smoothing; }
 
+    /// From here on photons of lamps with area get the published footprints, and no shift.
+    void splat_area_lamps_as_published() { are_area_lamps_published_ = true; }
+
     /// Gives a photon's deposit its footprint and shifts it.
     ///
     /// @param photon  emitted with smoothing 1; its deposit must not be empty
@@ -55,7 +58,9 @@ public:
     template <Flux F, std::size_t N>
     AppliedFootprint apply(TracedPhoton<V, F, N>& photon, std::array<Double3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
-        const std::optional<FieldSample> found = photon.frame.is_regular() ? fields_.at(photon) : std::nullopt;
+        const bool is_left = are_area_lamps_published_ && photon.sample.coordinates == 4;
+        const std::optional<FieldSample> found =
+            photon.frame.is_regular() && !is_left ? fields_.at(photon) : std::nullopt;
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
             const double fallback = !has_neighbours(photon.sample)   ? smoothing_without_neighbours_
                                     : photon.sample.coordinates == 2 ? options_.policy.bounds.least
@@ -75,6 +80,7 @@ private:
     Options options_;
     double smoothing_without_neighbours_ = default_smoothing;
     LightFields<domains> fields_;
+    bool are_area_lamps_published_ = false;
 };
 
 } // namespace nephroid::detail
