@@ -63,9 +63,8 @@ template <Vector3 V>
 /// count no direction twice. Groups that overlap as seen from the lamp become one target, whose bounds then contain the
 /// cones towards its objects, but not all of the objects.
 ///
-/// @param objects    bounds of the specular objects
-/// @param groups     those that `group_targets` made of the same array; their numbers are not checked
 /// @param lamp       its position, finite
+/// @param groups     as `group_targets` makes them
 /// @param cos_outer  cosine of a spot's outer angle, in [-1, 1]; -1 for other lamps. A spot whose target is wider than
 ///                   its own cone shines into all of that cone
 /// Throws std::invalid_argument for a position or a cosine out of its range.
