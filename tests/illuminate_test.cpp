@@ -111,12 +111,66 @@ TEST_CASE("illuminate: the mean of passes converges as their disks shrink") {
         if (pass == 4)
             after_4 = error();
     }
-    CHECK(light.passes() == 64);
+    CHECK(light.indirect_part().passes == 64);
     CHECK(std::log(error() / after_4) / std::log(16.0) < -0.25);
     CHECK(error() < 0.05); // measured 0.03
     light.clear();
-    CHECK(light.passes() == 0);
+    CHECK(light.indirect_part().passes == 0);
     CHECK(Picture(light, vertices.size()).indirect == std::vector<float>(vertices.size(), 0.0f));
+}
+
+TEST_CASE("illuminate: caustics and indirect light are means over the passes that had them") {
+    const Room<float> room = room_with_mirror();
+    const auto vertices = room.vertices(6, {2});
+    const auto map = map_of(vertices);
+    const PointLight<V, float> lamp({{0.5f, 0.5f, 0.5f}, 1.0f});
+    Illumination<V, float> light(map, room);
+    illuminate(room, lamp, light, {.global = {.count = 500}, .caustic = {.count = 1000}});
+    const Picture first(light, vertices.size());
+    for (int pass = 0; pass < 3; ++pass)
+        illuminate(room, lamp, light, {.global = {.count = 200}});
+    CHECK(Picture(light, vertices.size()).caustic == first.caustic);
+    CHECK(Picture(light, vertices.size()).indirect != first.indirect);
+    CHECK(light.caustic_part().passes == 1);
+    CHECK(light.caustic_part().next == 1000);
+    CHECK(light.indirect_part().passes == 4);
+    CHECK(light.indirect_part().next == 1100);
+}
+
+TEST_CASE("illuminate: a pass that is refused adds nothing") {
+    Room<float> room = room_with_mirror();
+    const auto vertices = room.vertices(4, {2});
+    const auto map = map_of(vertices);
+    const PointLight<V, float> lamp({{0.5f, 0.5f, 0.5f}, 1.0f});
+    Illumination<V, float> light(map, room);
+    for (auto& wall : room.walls)
+        if (wall.event == Event::diffuse)
+            wall.event = Event::deposit;
+    CHECK_THROWS_AS(illuminate(room, lamp, light, {.global = {.count = 4000}, .caustic = {.count = 1000}}),
+                    std::invalid_argument);
+    CHECK(light.caustic_part().passes == 0);
+    for (const float caustic : Picture(light, vertices.size()).caustic)
+        CHECK(caustic == 0);
+}
+
+// Five photons leave fewer than 64 deposits, 2,000 some 2,000.
+TEST_CASE("illuminate: a radius that too few photons were there to choose is chosen by a later pass") {
+    const Room<float> room = furnace<float>();
+    const auto vertices = room.vertices(6, {2});
+    const auto map = map_of(vertices);
+    const PointLight<V, float> lamp({{0.5f, 0.5f, 0.5f}, 1.0f});
+    Illumination<V, float> light(map, room);
+    const auto early = illuminate(room, lamp, light, {.global = {.count = 5}});
+    CHECK(!early.global.is_radius_chosen);
+    CHECK(!light.radius());
+    const auto late = illuminate(room, lamp, light, {.global = {.count = 2000}});
+    CHECK(late.global.is_radius_chosen);
+    CHECK(late.global.radius <= early.global.radius);
+    REQUIRE(light.radius());
+    CHECK(*light.radius() < late.global.radius);
+    // Every deposit of indirect light is told of.
+    CHECK(late.global.disks[Fate::splatted].flux + late.global.disks[Fate::unseen].flux ==
+          doctest::Approx(late.global.statistics[Arrival::indirect].flux).epsilon(1e-4));
 }
 
 TEST_CASE("illuminate: any number of threads makes the same light, bit for bit") {

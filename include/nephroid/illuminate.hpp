@@ -13,14 +13,14 @@
 
 namespace nephroid {
 
-/// What one pass of `illuminate` traces. Passes of one picture have the same counts.
+/// What one pass of `illuminate` traces. Each pass weighs as much as any other, however many photons it has.
 template <class V>
 struct IlluminationPass {
     /// Light between diffuse surfaces.
     struct Global {
         std::uint64_t count = 0;        ///< photons; 0 for none
         std::optional<double> radius{}; ///< of the first pass's disks, world units, > 0; chosen if left out
-        double alpha = 2.0 / 3;         ///< in (0, 1]: how fast disks shrink from pass to pass; 1 is not at all
+        double alpha = 2.0 / 3;         ///< in (0, 1]: how fast disks shrink from pass to pass; with 1 only once
     };
     /// Light that mirrors and glass focus.
     struct Caustic {
@@ -62,7 +62,7 @@ inline constexpr double radius_of_later_passes = 0.8;
 /// @param scene      its `scatter` returns Event::diffuse, with the albedo as the weight, on surfaces that send light
 ///                   on
 /// @param lamp       one light or a LightSet, not aimed at anything
-/// @param light      what the pass is added to. Pass i traces photons i · count and those after it
+/// @param light      what the pass is added to. Its photons follow those of the passes before
 /// @param pass       how many photons, and what caustics are aimed at
 /// @param arguments  optional, in any order: a sequence (otherwise `HaltonSequence`) and an executor. The light is the
 ///                   same bit for bit with any executor
@@ -77,26 +77,34 @@ IlluminationStatistics illuminate(const S& scene, const L& lamp, Illumination<V,
     if (pass.global.count == 0 && pass.caustic.count == 0)
         invalid_argument("nephroid::illuminate: zero photons; global.count or caustic.count must be at least 1");
     IlluminationStatistics statistics;
-    if (pass.caustic.count > 0) {
+    const auto add_caustics = [&](const auto& source) {
         const PhotonPass photons{
-            .first = light.passes() * pass.caustic.count, .count = pass.caustic.count, .limits = pass.limits};
-        const auto add = [&](const auto& source) {
-            statistics.caustic = caustics(scene, source, light.caustic(), photons, arguments...);
-        };
-        if constexpr (AimsAt<L, V>)
-            pass.caustic.target ? add(lamp.aimed_at(*pass.caustic.target)) : add(lamp);
-        else
-            add(lamp);
-    }
-    if (pass.global.count > 0) {
-        const GlobalPass photons{.first = light.passes() * pass.global.count,
+            .first = light.caustic_part().next, .count = pass.caustic.count, .limits = pass.limits};
+        statistics.caustic = caustics(scene, source, light.caustic(), photons, arguments...);
+        light.end_caustic_pass(pass.caustic.count);
+    };
+    const auto add_indirect = [&] {
+        const GlobalPass photons{.first = light.indirect_part().next,
                                  .count = pass.global.count,
                                  .radius = light.radius() ? light.radius() : pass.global.radius,
                                  .limits = pass.limits};
         statistics.global = splat_global(scene, lamp, light.indirect(), light.distances(), photons, arguments...);
-    }
-    const double radius = statistics.global.radius;
-    light.end_pass(pass.global.radius ? radius : detail::radius_of_later_passes * radius, pass.global.alpha);
+        std::optional<double> radius = pass.global.radius;
+        if (!radius && statistics.global.is_radius_chosen)
+            radius = detail::radius_of_later_passes * statistics.global.radius;
+        light.end_indirect_pass(pass.global.count, radius, pass.global.alpha);
+    };
+    // Indirect light first: what it refuses, it refuses before anything is added.
+    const auto add_both = [&](const auto& source) {
+        if (pass.global.count > 0)
+            add_indirect();
+        if (pass.caustic.count > 0)
+            add_caustics(source);
+    };
+    if constexpr (AimsAt<L, V>)
+        pass.caustic.target ? add_both(lamp.aimed_at(*pass.caustic.target)) : add_both(lamp);
+    else
+        add_both(lamp);
     return statistics;
 }
 

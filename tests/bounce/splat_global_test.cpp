@@ -260,8 +260,12 @@ TEST_CASE("global: what cannot be is refused with a sentence") {
     for (Wall<float, float>& wall : dark.walls)
         wall.event = Event::deposit;
     CHECK(message_of([&] {
-              splat_global(dark, lamp, sums, distances, {.count = 9, .radius = 0.1});
+              splat_global(dark, lamp, sums, distances, {.count = 2000, .radius = 0.1});
           }).find("Event::diffuse") != std::string::npos);
+    CHECK(message_of([&] { splat_global(dark, lamp, sums, distances, {.count = 9, .radius = 0.1}); }).empty());
+    CHECK(message_of([&] {
+              splat_global(room, lamp, sums, distances, {.count = 9, .radius = 1e-30});
+          }).find("scalar type cannot hold") != std::string::npos);
 }
 
 TEST_CASE("global: a receiver without vertices, and one without light, are no error") {

@@ -124,6 +124,8 @@ private:
     std::vector<std::uint32_t> slots_; ///< of the vertices that are looked at
 };
 
+inline constexpr std::size_t fewest_deposits_to_choose_by = 64;
+
 /// The radius for a pass of disks.
 ///
 /// @param stored   what its first photons left
@@ -134,9 +136,9 @@ private:
 template <class V, class F, class E>
 [[nodiscard]] double validated_radius(const FreeDistances<V>& distances, const QuarteredDeposits<V, F>& stored,
                                       std::uint64_t photons, std::uint64_t all, E& executor) {
-    constexpr std::size_t fewest = 64, in_smallest = 64, most_steps = 8; // 8,192 deposits in the largest disk
+    constexpr std::size_t in_smallest = 64, most_steps = 8; // 8,192 deposits in the largest disk
     const double reach = double(distances.reach());
-    if (stored.deposits.size() < fewest || distances.map().tree().empty())
+    if (stored.deposits.size() < fewest_deposits_to_choose_by || distances.map().tree().empty())
         return reach;
     announce(executor, Phase::fit);
     const QuarterDisks disks(distances, stored);

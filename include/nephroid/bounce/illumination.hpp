@@ -29,8 +29,16 @@ template <class S, class F>
 concept MustTakeIllumination = TakesIllumination<S, F> || explain_illumination_sink<S, F>();
 } // namespace detail
 
+/// Which photons of one kind of light have been added.
+struct IlluminationPart {
+    std::uint64_t passes = 0; ///< that added such light
+    std::uint64_t next = 0;   ///< index of the first photon of the next one
+};
+
 /// The light at the vertices of a map, as `illuminate` adds to it pass by pass: the mean over the passes is the
-/// picture. The disks of indirect light shrink from one pass to the next, so that the mean converges to the truth.
+/// picture, for caustics over those passes that had caustic photons and for indirect light over those that had global
+/// ones. The disks of indirect light shrink from one pass to the next, so that its mean converges to the truth. The
+/// mean of caustics loses its noise and keeps the bias of the footprints of one pass.
 ///
 /// ```cpp
 /// nephroid::Illumination<Vec3, Colour> light(map, scene);
@@ -57,8 +65,9 @@ public:
 
     [[nodiscard]] const EyePathMap<V>& map() const { return distances_.map(); }
     [[nodiscard]] const FreeDistances<V>& distances() const { return distances_; }
-    /// Passes added so far.
-    [[nodiscard]] std::uint64_t passes() const { return passes_; }
+    /// What has been added so far of light by mirrors and glass alone, and of light by diffuse surfaces.
+    [[nodiscard]] const IlluminationPart& caustic_part() const { return caustic_part_; }
+    [[nodiscard]] const IlluminationPart& indirect_part() const { return indirect_part_; }
     /// The sums over all passes, of irradiance.
     [[nodiscard]] const Sums<V, F>& caustic() const { return caustic_; }
     [[nodiscard]] const Sums<V, F>& indirect() const { return indirect_; }
@@ -68,11 +77,15 @@ public:
     template <class S>
         requires detail::MustTakeIllumination<std::remove_reference_t<S>, F>
     void for_each(S&& sink) const {
-        const T share = passes_ > 0 ? T(1) / T(passes_) : T(0);
+        const auto share_of = [](const IlluminationPart& part) {
+            return part.passes > 0 ? T(1) / T(part.passes) : T(0);
+        };
+        const T of_caustics = share_of(caustic_part_), of_indirect = share_of(indirect_part_);
         const auto leaves = map().tree().leaves();
         for (std::uint32_t leaf = 0; leaf < leaves.size(); ++leaf)
             for (std::size_t i = 0; i < leaves[leaf].size; ++i) {
-                const F caustic = caustic_.of_leaf(leaf)[i] * share, indirect = indirect_.of_leaf(leaf)[i] * share;
+                const F caustic = caustic_.of_leaf(leaf)[i] * of_caustics;
+                const F indirect = indirect_.of_leaf(leaf)[i] * of_indirect;
                 sink(std::size_t(map().tree().index(leaves[leaf].first + i)), caustic, indirect);
             }
     }
@@ -82,35 +95,40 @@ public:
         caustic_.clear();
         indirect_.clear();
         radius_.reset();
-        passes_ = 0;
+        caustic_part_ = indirect_part_ = {};
     }
 
     // For whoever adds a pass, as `illuminate` does.
 
     [[nodiscard]] Sums<V, F>& caustic() { return caustic_; }
     [[nodiscard]] Sums<V, F>& indirect() { return indirect_; }
-    /// The radius of the next pass's disks; nothing before the first pass.
+    /// The radius of the next pass's disks; nothing before one was chosen or given.
     [[nodiscard]] std::optional<double> radius() const {
         return radius_ ? std::optional<double>(radius_->radius()) : std::nullopt;
     }
-    /// Counts a pass.
+    /// Counts a pass that added caustics, of so many photons.
+    void end_caustic_pass(std::uint64_t photons) {
+        ++caustic_part_.passes;
+        caustic_part_.next += photons;
+    }
+    /// Counts a pass that added indirect light, of so many photons.
     ///
-    /// @param radius  from which disks shrink, world units; 0 if the pass had none
+    /// @param radius  from which disks shrink, if the pass is the first that has one; world units
     /// @param alpha   in (0, 1]: the share of a pass's photons within a disk that the next one keeps
-    void end_pass(double radius, double alpha) {
-        ++passes_;
-        if (!(radius > 0))
-            return;
-        if (!radius_)
-            radius_.emplace(ShrinkingRadiusOptions{.radius = radius, .alpha = alpha});
-        radius_->advance();
+    void end_indirect_pass(std::uint64_t photons, std::optional<double> radius, double alpha) {
+        ++indirect_part_.passes;
+        indirect_part_.next += photons;
+        if (!radius_ && radius)
+            radius_.emplace(ShrinkingRadiusOptions{.radius = *radius, .alpha = alpha});
+        if (radius_)
+            radius_->advance();
     }
 
 private:
     FreeDistances<V> distances_;
     Sums<V, F> caustic_, indirect_;
     std::optional<ShrinkingRadius> radius_;
-    std::uint64_t passes_ = 0;
+    IlluminationPart caustic_part_, indirect_part_;
 };
 
 } // namespace nephroid

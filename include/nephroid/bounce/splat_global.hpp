@@ -6,6 +6,7 @@
 #include "nephroid/bounce/disk_radius.hpp"
 #include "nephroid/bounce/indirect_photons.hpp"
 #include "nephroid/execution/thread_executor.hpp"
+#include "nephroid/gather/check_radius.hpp"
 #include "nephroid/pass/call_arguments.hpp"
 #include "nephroid/splat/splat_arguments.hpp"
 
@@ -31,7 +32,9 @@ struct GlobalPass {
 /// What a pass of indirect light did.
 struct GlobalSplats {
     Statistics statistics;               ///< `received` says what arrived at diffuse surfaces, by which way
+    Statistics disks{};                  ///< what became of the deposits of indirect light: splatted, or unseen
     double radius = 0;                   ///< of the disks, world units
+    bool is_radius_chosen = true;        ///< false if there was too little light to choose it by: it is then the reach
     std::uint64_t bounded_coverages = 0; ///< vertices of whose disk less than a twentieth lies on the surface
 };
 
@@ -44,28 +47,35 @@ concept MustBeTraceArgument = MustBeOneOf<A, SequenceKind, ExecutorKind>;
 template <class V, class F, class R>
 void check(const GlobalPass& pass, const Sums<V, F, R>& sums, const FreeDistances<V>& distances) {
     check(PhotonPass{.count = pass.count, .total = pass.total}, "nephroid::splat_global");
-    if (pass.radius && (!(*pass.radius > 0) || !std::isfinite(*pass.radius)))
-        invalid_argument("nephroid::splat_global: radius is " + text_of(*pass.radius) +
-                         "; it must be positive and finite, or left out to be chosen");
+    if (pass.radius)
+        check_radius<scalar_t<V>>("nephroid::splat_global", "radius", *pass.radius, false);
     if (&distances.map() != &sums.map())
         invalid_argument("nephroid::splat_global: the free distances are those of another map than the sums'");
 }
 
-/// Throws std::invalid_argument for a scene without a surface that sends light on.
+/// Throws std::invalid_argument for a scene without a surface that sends light on. Of few photons none may have met one
+/// by chance.
 inline void check_bounces(const Statistics& statistics) {
+    constexpr std::uint64_t enough = 1000;
     std::uint64_t arrived = 0;
     for (const Tally& tally : statistics.received)
         arrived += tally.photons;
-    if (arrived > 0 && statistics.diffuse_events == 0)
+    if (arrived >= enough && statistics.diffuse_events == 0)
         invalid_argument("nephroid::splat_global: all " + std::to_string(arrived) +
                          " photons that reached a diffuse surface ended there, so that there is no indirect light; "
                          "scatter must return Event::diffuse, with the albedo as its weight");
 }
 
+/// A radius, and whether there was enough light to choose it by.
+struct ChosenRadius {
+    double radius;
+    bool is_chosen;
+};
+
 /// Traces the first photons of a picture, and chooses the radius for the whole of it.
 template <class S, class L, class V, class Sequence, class E>
-[[nodiscard]] double radius_from_pilot(const S& scene, const L& lamp, const FreeDistances<V>& distances,
-                                       const PhotonPass& pass, const Sequence& sequence, E& executor) {
+[[nodiscard]] ChosenRadius radius_from_pilot(const S& scene, const L& lamp, const FreeDistances<V>& distances,
+                                             const PhotonPass& pass, const Sequence& sequence, E& executor) {
     using F = typename L::flux_type;
     constexpr std::uint64_t most = 32768;
     PhotonPass pilot = pass;
@@ -80,23 +90,24 @@ template <class S, class L, class V, class Sequence, class E>
             stored.deposits.push_back(deposit);
             stored.quarter.push_back(std::uint8_t(i * 4 / count));
         }
-    return validated_radius(distances, stored, count, all, executor);
+    return {validated_radius(distances, stored, count, all, executor),
+            stored.deposits.size() >= fewest_deposits_to_choose_by};
 }
 
 /// Splats a pass of disks of one radius.
 template <class S, class L, class V, class F, class R, class Sequence, class E>
 [[nodiscard]] GlobalSplats splat_disks(const S& scene, const L& lamp, Sums<V, F, R>& sums,
-                                       const FreeDistances<V>& distances, const PhotonPass& pass, double radius,
+                                       const FreeDistances<V>& distances, const PhotonPass& pass, ChosenRadius chosen,
                                        const Sequence& sequence, E& executor) {
     Sums<V, F, R> disks(sums.map(), sums.response());
-    Splatter splatter(disks, disks_of(radius, distances));
+    Splatter splatter(disks, disks_of(chosen.radius, distances));
     IndirectPhotons photons(scene, lamp, pass, sequence);
     Statistics traced;
-    splat_in_batches(
+    const Statistics splatted = splat_in_batches( // which the walk has booked as what it became later
         splatter, pass.count,
-        [&](std::uint64_t i, auto& chunk, Statistics& unused) { // the walk has booked all flux
+        [&](std::uint64_t i, auto& chunk, Statistics& account) {
             for (const Deposit<V, F, 0>& deposit : photons[i])
-                splatter.prepare(deposit, chunk, unused);
+                splatter.prepare(deposit, chunk, account);
         },
         executor,
         [&](std::uint64_t begin, std::uint64_t end) {
@@ -105,7 +116,8 @@ template <class S, class L, class V, class F, class R, class Sequence, class E>
         },
         pass.progress);
     check_bounces(traced);
-    return {traced, radius, add_over_coverage(disks, radius, distances, sums, executor)};
+    return {traced, splatted, chosen.radius, chosen.is_chosen,
+            add_over_coverage(disks, chosen.radius, distances, sums, executor)};
 }
 } // namespace detail
 
@@ -128,8 +140,8 @@ template <class S, class L, class V, class F, class R, class Sequence, class E>
 /// @param arguments  optional, in any order: the sequence that photon i's numbers come from (otherwise
 ///                   `HaltonSequence`) and an executor. The sums are the same bit for bit with any executor
 /// Throws std::invalid_argument for zero photons, a radius that is not positive, distances of another map, and a scene
-/// none of whose surfaces returns Event::diffuse. Memory: a second copy of the sums, one batch, and at most 32,768
-/// pilot photons.
+/// none of whose surfaces returned Event::diffuse to a thousand photons. Memory: a second copy of the sums, one batch,
+/// and at most 32,768 pilot photons, which are traced once more.
 template <class S, class L, class V, class F, class R, detail::MustBeTraceArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
                  detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>, 0>)
@@ -144,8 +156,8 @@ GlobalSplats splat_global(const S& scene, const L& lamp, Sums<V, F, R>& sums, co
                                      .total = pass.total,
                                      .limits = pass.limits,
                                      .progress = pass.progress};
-            const double radius =
-                pass.radius ? *pass.radius
+            const detail::ChosenRadius radius =
+                pass.radius ? detail::ChosenRadius{*pass.radius, true}
                             : detail::radius_from_pilot(scene, source, distances, photons, sequence, executor);
             return detail::splat_disks(scene, source, sums, distances, photons, radius, sequence, executor);
         },
