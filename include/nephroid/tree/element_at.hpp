@@ -2,6 +2,8 @@
 /// @file  An element of a user's range by its number.
 #pragma once
 
+#include "nephroid/vector/language.hpp"
+
 #include <cstddef>
 #include <ranges>
 
