@@ -33,7 +33,8 @@ namespace nephroid {
 /// Throws std::invalid_argument for zero photons, a smoothing that is not positive, and options of `SecondOrder` that
 /// make no sense.
 /// Memory: the sums, one batch, and the pilot photons of second-order splatting, whatever the number of photons; while
-/// it chooses a smoothing for lights without a domain (smoothing/cross_validation.hpp), a second copy of the sums.
+/// it compares pictures, of lights without a domain and of lights with area (smoothing/cross_validation.hpp), a second
+/// copy of the sums.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
                  detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>>)

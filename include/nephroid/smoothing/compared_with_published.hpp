@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// @file  A safety net for lamps with area: whether the published footprints make a better picture than those chosen.
+/// @file  A safety net for lamps with area: which are better splatted as published than with the footprints chosen.
 ///
 /// Tangents do not tell where light jumps from one flat facet to the next, and in four emission coordinates photons are
 /// too far from each other to see it in where they land. Pictures do: those of one half of the photons predict those of
@@ -12,60 +12,92 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace nephroid::detail {
 
 /// The squared error of a pass, summed over the vertices, plus a constant: from pictures of a part of its photons with
-/// the footprints of the pass. Photons in four coordinates are nearly random, and the variance falls with their number.
+/// the footprints of the pass.
 ///
 /// @param sharp  pictures of the same quarters with small footprints
 /// @param share  of the pass's photons that the pictures are made of, in (0, 1]
+/// @param order  from noise_order, 1 for random photons
 [[nodiscard]] inline double validated_error_of_pass(const QuarterPictures& q, const QuarterPictures& sharp,
-                                                    double share) {
+                                                    double share, double order) {
     double variance = 0; // of the picture from all quarters
     for (std::size_t i = 0; i < q[0].size(); ++i)
         variance += square(0.25 * ((q[0][i] + q[1][i]) - (q[2][i] + q[3][i])));
-    return validated_error(q, sharp, 1) - (1 - share) * variance;
+    return validated_error(q, sharp, order) - (1 - share) * variance;
 }
 
-/// Whether the pilot's photons of lamps with area, splatted as published, predict each other better than with the
-/// footprints chosen for them.
+/// Whether photons of one lamp with area, splatted as published, predict each other better than with the footprints
+/// chosen for them, however their quarters are paired to halves. (Pieces of curved footprints are compared as one.)
+///
+/// @param picture_of  picture_of(smoothing, is_chosen) -> QuarterPictures
+/// @param share       of the pass's photons that are in the pictures
+/// @param whole       undoes what widens the footprints of a part
+template <class PictureOf>
+[[nodiscard]] bool is_published_better(const PictureOf& picture_of, double share, double whole, bool stratified) {
+    constexpr double sharpest = 2.5, noise = 5; // as cross_validated has them
+    const QuarterPictures sharp = picture_of(sharpest, false);
+    const QuarterPictures published = picture_of(default_smoothing * whole, false);
+    const QuarterPictures chosen = picture_of(whole, true);
+    const double order = stratified ? noise_order(picture_of(noise, false)) : 1;
+    for (const std::size_t with_first : {1, 2, 3}) {
+        const auto paired = [with_first](QuarterPictures q) {
+            std::swap(q[1], q[with_first]);
+            return q;
+        };
+        if (!(validated_error_of_pass(paired(published), paired(sharp), share, order) <
+              validated_error_of_pass(paired(chosen), paired(sharp), share, order)))
+            return false;
+    }
+    return true;
+}
+
+/// The lamps with area, by number, that are better splatted as published; rising.
 ///
 /// @param footprints  of a pass whose smoothing is not given
-/// @return  false if too few photons land in view to tell
 template <class V, class F, class R, class Policies, class Photon, class Footprints, class E>
-[[nodiscard]] bool is_published_better(const Sums<V, F, R>& sums, const Policies& policies, const Pilot<Photon>& pilot,
-                                       const Footprints& footprints, const PhotonPass& pass, E& executor) {
-    constexpr double sharpest = 2.5;
-    constexpr std::size_t fewest = 256; // photons that must land
-    const auto as_published = [&](std::size_t i) {
-        const Photon& photon = pilot.photons[i];
-        return photon.sample.coordinates == 4 ? photon.deposit : std::nullopt;
-    };
-    const auto as_chosen = [&](std::size_t i) {
+[[nodiscard]] std::vector<std::uint32_t>
+lamps_better_published(const Sums<V, F, R>& sums, const Policies& policies, const Pilot<Photon>& pilot,
+                       const Footprints& footprints, const PhotonPass& pass, bool stratified, E& executor) {
+    constexpr std::size_t fewest = 1000; // photons of a lamp that must land, to tell
+    std::map<std::uint32_t, std::size_t> landed;
+    for (const Photon& photon : pilot.photons)
+        if (photon.sample.coordinates == 4 && photon.deposit)
+            ++landed[photon.sample.light];
+    std::vector<std::uint32_t> published;
+    if (landed.empty())
+        return published;
+    announce(executor, Phase::fit);
+    const auto silent = [&executor](std::size_t count, const auto& task) { executor(count, task); };
+    const std::size_t count = pilot.photons.size();
+    const double photons = double(pass.emitted_in_all());
+    std::uint32_t lamp = 0;
+    bool is_chosen = false;
+    const auto deposit_of = [&](std::size_t i) {
         Photon photon = pilot.photons[i];
-        if (photon.sample.coordinates != 4)
+        if (photon.sample.coordinates != 4 || photon.sample.light != lamp)
             photon.deposit.reset();
-        if (photon.deposit)
+        else if (photon.deposit && is_chosen)
             (void)footprints.apply(photon);
         return photon.deposit;
     };
-    const std::size_t count = pilot.photons.size();
-    std::size_t landed = 0;
-    for (std::size_t i = 0; i < count && landed < fewest; ++i)
-        landed += as_published(i).has_value();
-    if (landed < fewest)
-        return false;
-
-    announce(executor, Phase::fit);
-    const double photons = double(pass.emitted_in_all()), share = double(count) / photons;
-    const double whole = std::sqrt(double(count / 4 * 4) / photons); // undoes what widens the footprints of a part
-    QuarterSplatter published(sums, policies, count, photons, as_published, executor);
-    QuarterSplatter chosen(sums, policies, count, photons, as_chosen, executor);
-    const QuarterPictures sharp = published(sharpest);
-    return validated_error_of_pass(published(default_smoothing * whole), sharp, share) <
-           validated_error_of_pass(chosen(whole), sharp, share);
+    QuarterSplatter splat(sums, policies, count, photons, deposit_of, silent);
+    const auto picture_of = [&](double smoothing, bool chosen) {
+        is_chosen = chosen;
+        return splat(smoothing);
+    };
+    for (const auto& [number, deposits] : landed) {
+        lamp = number;
+        if (deposits >= fewest && is_published_better(picture_of, double(count) / photons,
+                                                      std::sqrt(double(count / 4 * 4) / photons), stratified))
+            published.push_back(number);
+    }
+    return published;
 }
 
 } // namespace nephroid::detail

@@ -11,6 +11,7 @@
 #include "nephroid/splat/splat_in_batches.hpp"
 
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -69,8 +70,9 @@ Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& 
             footprints.set_smoothing_without_neighbours(smoothing_without_neighbours<decltype(footprints)>(
                 sums, policies, pilot, pass, Sequence::stratified, executor));
     if constexpr (emission_domains<L>.four)
-        if (!pass.smoothing && is_published_better(sums, policies, pilot, footprints, pass, executor))
-            footprints.splat_area_lamps_as_published();
+        if (!pass.smoothing && std::isfinite(policies.order.largest_miss))
+            footprints.splat_as_published(
+                lamps_better_published(sums, policies, pilot, footprints, pass, Sequence::stratified, executor));
     Splatter splatter(sums, policies);
     TracedBatch<traced_photon_t<L>> batch;
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {

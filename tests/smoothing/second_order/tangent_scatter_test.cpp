@@ -34,16 +34,16 @@ TEST_CASE("tangent scatter: it is the part of the tangents that the map does not
 TEST_CASE("tangent scatter: footprints have no more area than the published ones where a fifth is not explained") {
     const Symmetric2 wide{400, 30, 100};
     for (const double scatter : {0.2, 0.5, 1.0}) {
-        const Symmetric2 bounded = bounded_by_scatter(wide, scatter);
+        const Symmetric2 bounded = bounded_by_scatter(wide, scatter, 5);
         CHECK(bounded.determinant() == doctest::Approx(64.0 * 64).epsilon(1e-12));
         CHECK(bounded.xx / bounded.yy == doctest::Approx(4).epsilon(1e-12)); // as long and thin as before
         CHECK(bounded.xy / bounded.yy == doctest::Approx(0.3).epsilon(1e-12));
     }
-    CHECK(bounded_by_scatter(wide, 0.1).determinant() == doctest::Approx(128.0 * 128).epsilon(1e-12));
+    CHECK(bounded_by_scatter(wide, 0.1, 5).determinant() == doctest::Approx(128.0 * 128).epsilon(1e-12));
     const Symmetric2 narrow{100, 0, 36};
     for (const double scatter : {0.0, 0.05, 1.0})
-        CHECK(bounded_by_scatter(narrow, scatter).determinant() == narrow.determinant());
-    CHECK(bounded_by_scatter(wide, 0).determinant() == wide.determinant());
+        CHECK(bounded_by_scatter(narrow, scatter, 5).determinant() == narrow.determinant());
+    CHECK(bounded_by_scatter(wide, 0, 5).determinant() == wide.determinant());
 }
 
 } // namespace nephroid::tests::tangent_scatter_test

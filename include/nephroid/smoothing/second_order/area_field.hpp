@@ -116,7 +116,7 @@ private:
         if (std::isfinite(cell.border_distance))
             shape =
                 bounded_along(shape, cell.border_direction, (std::max)(least_border_radius, 2 * cell.border_distance));
-        cell.shape = bounded_by_scatter(options_.scale * shape, scatter / weights);
+        cell.shape = bounded_by_scatter(options_.scale * shape, scatter / weights, options_.bounds.least);
     }
 
     static constexpr double least_border_radius = 8; ///< in u0: shorter radii beside a border would show noise

@@ -159,7 +159,7 @@ private:
             weights += weight;
         });
         const Symmetric2 shape = shape_tensor((1 / weights) * blurred, density_, options_.bounds, kinks.density());
-        cell.shape = bounded_by_scatter(options_.scale * shape, scatter / weights);
+        cell.shape = bounded_by_scatter(options_.scale * shape, scatter / weights, options_.bounds.least);
     }
 
     /// A cell's shape at a photon, in the cell's frame, bounded by the border of the group.

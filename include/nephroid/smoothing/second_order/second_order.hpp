@@ -11,11 +11,15 @@
 #include "nephroid/smoothing/second_order/light_fields.hpp"
 #include "nephroid/smoothing/second_order/shifted_deposit.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace nephroid::detail {
 
@@ -48,8 +52,10 @@ public:
     /// `default_smoothing`.
     void set_smoothing_without_neighbours(double smoothing) { smoothing_without_neighbours_ = smoothing; }
 
-    /// From here on photons of lamps with area get the published footprints, and no shift.
-    void splat_area_lamps_as_published() { are_area_lamps_published_ = true; }
+    /// From here on photons of these lamps with area get the published footprints, and no shift.
+    ///
+    /// @param lamps  their numbers, rising
+    void splat_as_published(std::vector<std::uint32_t> lamps) { published_lamps_ = std::move(lamps); }
 
     /// Gives a photon's deposit its footprint and shifts it.
     ///
@@ -58,7 +64,8 @@ public:
     template <Flux F, std::size_t N>
     AppliedFootprint apply(TracedPhoton<V, F, N>& photon, std::array<Double3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
-        const bool is_left = are_area_lamps_published_ && photon.sample.coordinates == 4;
+        const bool is_left = photon.sample.coordinates == 4 &&
+                             std::binary_search(published_lamps_.begin(), published_lamps_.end(), photon.sample.light);
         const std::optional<FieldSample> found =
             photon.frame.is_regular() && !is_left ? fields_.at(photon) : std::nullopt;
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
@@ -80,7 +87,7 @@ private:
     Options options_;
     double smoothing_without_neighbours_ = default_smoothing;
     LightFields<domains> fields_;
-    bool are_area_lamps_published_ = false;
+    std::vector<std::uint32_t> published_lamps_;
 };
 
 } // namespace nephroid::detail

@@ -34,10 +34,12 @@ namespace nephroid::detail {
 /// over their distances, and this estimate is too small if the distances are long: in a pass of many more photons, and
 /// among the four coordinates of area lights. Where the scatter is a fifth or more, footprints are no larger than the
 /// published ones. Their area is bounded in inverse proportion to the scatter, so that they do not change at once.
-[[nodiscard]] inline Symmetric2 bounded_by_scatter(const Symmetric2& s, double scatter) {
+///
+/// @param least  lower bound of s
+[[nodiscard]] inline Symmetric2 bounded_by_scatter(const Symmetric2& s, double scatter, double least) {
     constexpr double large = 0.2;
     const double area = std::sqrt(s.determinant()); // in u0², over π
-    const double limit = square(default_smoothing) * (std::max)(1.0, large / scatter);
+    const double limit = square((std::max)(default_smoothing, least)) * (std::max)(1.0, large / scatter);
     return area > limit ? (limit / area) * s : s;
 }
 
