@@ -179,6 +179,19 @@ TEST_CASE("diagnose: shading normals on the wrong side") {
     };
     const Changed scene{good_scene(), turned};
     CHECK(says(diagnose(fates_of(scene, sun())), 0, "used the geometric normal"));
+
+    // Bounces have such normals as well, and are counted among what could have one.
+    Statistics account;
+    account.emitted = {100, 1};
+    account.diffuse_events = 300;
+    account.bounces = 200;
+    account.corrected_normals = 20;
+    CHECK(says(diagnose(account), 0, "10% of the reflections, refractions and bounces used the geometric normal"));
+    account.corrected_normals = 9;
+    CHECK(diagnose(account).empty());
+    account.specular_events = 20;
+    account.corrected_normals = 22;
+    CHECK(says(diagnose(account), 0, "10% of the reflections, refractions and bounces used the geometric normal"));
 }
 
 // Each by a pass that makes the mistake.

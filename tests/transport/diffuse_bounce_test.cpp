@@ -14,7 +14,28 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <vector>
+
+namespace nephroid::tests::diffuse_bounce_test {
+
+/// Of two bands, with no more than a flux needs.
+struct Spectrum {
+    float a, b;
+
+    friend Spectrum operator+(const Spectrum& x, const Spectrum& y) { return {x.a + y.a, x.b + y.b}; }
+    friend Spectrum operator*(const Spectrum& x, const Spectrum& y) { return {x.a * y.a, x.b * y.b}; }
+    friend Spectrum operator*(const Spectrum& x, float s) { return {x.a * s, x.b * s}; }
+};
+
+} // namespace nephroid::tests::diffuse_bounce_test
+
+template <>
+struct nephroid::flux_traits<nephroid::tests::diffuse_bounce_test::Spectrum> {
+    using Spectrum = nephroid::tests::diffuse_bounce_test::Spectrum;
+    static double power(const Spectrum& s) { return (double(s.a) + double(s.b)) / 2; }
+    static Spectrum zero() { return {0, 0}; }
+};
 
 namespace nephroid::tests::diffuse_bounce_test {
 
@@ -46,7 +67,8 @@ Statistics follow(const S& scene, const L& lamp, std::uint64_t photons, Visitor&
     Statistics account;
     for (std::uint64_t i = 0; i < photons; ++i) {
         Sampler<RandomSequence> sampler(random, i);
-        walk(scene, WithoutTangents(lamp).emit(sampler, {double(photons), 1}), sampler, limits, account, visitor);
+        const auto photon = WithoutTangents(lamp).emit(sampler, {typename L::T(photons), 1});
+        walk(scene, photon, sampler, limits, account, visitor);
     }
     return account;
 }
@@ -68,6 +90,40 @@ struct Count {
     static constexpr bool follows_bounces = true;
     std::uint64_t seen = 0;
     void deposit(const Deposit<D, Bands, 0>&, const WalkedPath<>& path) { seen += path.bounces > 0; }
+};
+
+/// A room as a renderer writes it whose surfaces are grey: the weight is a number, and the light a spectrum that cannot
+/// be made from one.
+struct GreyRoom {
+    struct Scattered {
+        Event event;
+        float weight, eta;
+    };
+    Room<float> room{box_walls<float, float>(0.5f)};
+
+    [[nodiscard]] auto intersect(const glm::vec3& o, const glm::vec3& d, float t_min, float t_max) const {
+        return room.intersect(o, d, t_min, t_max);
+    }
+    template <class Sampler>
+    [[nodiscard]] Scattered scatter(const Room<float>::Hit& hit, const glm::vec3&, Sampler&) const {
+        return {room.walls[hit.surface].event, room.walls[hit.surface].albedo, 1};
+    }
+};
+struct CountSpectra {
+    static constexpr bool follows_bounces = true;
+    std::uint64_t seen = 0;
+    void deposit(const Deposit<glm::vec3, Spectrum, 0>&, const WalkedPath<>&) { ++seen; }
+};
+
+/// A room whose shading normals are not unit, or not numbers.
+struct BadNormals : Room<double> {
+    double scale;
+    [[nodiscard]] std::optional<Hit> intersect(const D& o, const D& d, double t_min, double t_max) const {
+        auto hit = Room<double>::intersect(o, d, t_min, t_max);
+        if (hit)
+            hit->shading_normal *= scale;
+        return hit;
+    }
 };
 
 [[nodiscard]] double sum_of_fates(const Statistics& account) { return account.accounted_flux(); }
@@ -168,6 +224,47 @@ TEST_CASE("diffuse bounce: an albedo that cannot be makes the photon invalid, an
         wall.albedo = {0.1, 1.2, 0.1};
     Count visitor;
     CHECK(follow(one_band, PointLight<D, Bands>({{0.4, 0.5, 0.6}, Bands(1)}), 10, visitor).invalid_albedos == 10);
+}
+
+// Such as one from a mirror that reflects nothing.
+TEST_CASE("diffuse bounce: a photon that carries nothing any more is absorbed, and no albedo is to blame") {
+    Room<double> room{box_walls<double, double>(0.5)};
+    room.walls[3].event = Event::reflect;
+    room.walls[3].albedo = 0;
+    Everything visitor;
+    const Statistics account = follow(room, PointLight<D, double>({{0.4, 0.5, 0.6}, 1.0}), 500, visitor);
+    CHECK(account.specular_events > 0);
+    CHECK(account.invalid_albedos == 0);
+    CHECK(account[Fate::invalid].photons == 0);
+    CHECK(account[Fate::absorbed].photons == 500);
+    CHECK(account[Fate::absorbed].flux == doctest::Approx(account.emitted.flux));
+}
+
+TEST_CASE("diffuse bounce: a shading normal that is not unit makes the photon invalid") {
+    for (const double scale : {0.9, 1.1, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
+        const BadNormals room{{box_walls<double, double>(0.5)}, scale};
+        Everything visitor;
+        const Statistics account = follow(room, PointLight<D, double>({{0.4, 0.5, 0.6}, 1.0}), 50, visitor);
+        CHECK(account[Fate::invalid].photons == 50);
+        CHECK(account.invalid_albedos == 0);
+        CHECK(account.bounces == 0);
+    }
+    Everything visitor;
+    const BadNormals rounded{{box_walls<double, double>(0.5)}, 1.001};
+    CHECK(follow(rounded, PointLight<D, double>({{0.4, 0.5, 0.6}, 1.0}), 50, visitor)[Fate::invalid].photons == 0);
+}
+
+TEST_CASE("diffuse bounce: an albedo may be a number where light is a spectrum") {
+    const PointLight<glm::vec3, Spectrum> lamp({{0.4f, 0.5f, 0.6f}, Spectrum{1, 3}});
+    CountSpectra visitor;
+    const Statistics account = follow(GreyRoom{}, lamp, 2000, visitor);
+    CHECK(account[Fate::invalid].photons == 0);
+    CHECK(account[Fate::absorbed].flux == doctest::Approx(account.emitted.flux));
+    // Photons arrive once more after they were direct, with a deviation of √0.5/0.5 = 1.41: four standard errors.
+    CHECK(std::abs(double(visitor.seen) / 2000 - 1) < 4 * 1.41 / std::sqrt(2000.0));
+    GreyRoom bright;
+    bright.room.walls = box_walls<float, float>(1.5f);
+    CHECK(follow(bright, lamp, 10, visitor).invalid_albedos == 10);
 }
 
 TEST_CASE("diffuse bounce: about a tilted shading normal light never goes into the surface") {

@@ -75,9 +75,9 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
                   "`WalkLimits::bounces`, or look for rays that hit the surface they leave"
                 : "the light was terminated on long paths: raise `WalkLimits::specular_events`, or look for rays that "
                   "hit the surface they leave");
-    add(part_of(double(s.corrected_normals), double(s.specular_events)), 0.05,
-        "the reflections and refractions used the geometric normal, as the shading normal would have sent the ray "
-        "through the surface: check that both are on one side");
+    add(part_of(double(s.corrected_normals), double(s.specular_events) + double(s.bounces)), 0.05,
+        "the reflections, refractions and bounces used the geometric normal, as the shading normal would have sent the "
+        "ray through the surface: check that both are on one side");
 }
 
 /// Looks for mistakes in what became of the light of caustics.

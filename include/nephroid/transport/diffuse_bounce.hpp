@@ -46,20 +46,27 @@ template <Vector3 V, class H, class Sampler>
 /// power that arrived, and then carries the latter; otherwise it is absorbed with all of it. So the photons after a
 /// bounce are as bright as before, and fewer.
 ///
-/// @param albedo  the share that the surface scatters, in [0, 1] in each band: else the photon is invalid
+/// @param albedo  the share that the surface scatters, in [0, 1] in each band: else the photon is invalid. A flux, or
+///                what a flux can be multiplied by, as the weights of reflections
 /// @return  whether the photon goes on; its position stays that of the hit
-template <class S, Vector3 V, Flux F, class H, class Sampler>
-[[nodiscard]] bool bounce_diffusely(PhotonSteps<S, V, F, 0>& steps, const H& hit, const F& albedo, Sampler& sampler,
-                                    Statistics& account) {
+template <class S, Vector3 V, Flux F, class H, class Albedo, class Sampler>
+[[nodiscard]] bool bounce_diffusely(PhotonSteps<S, V, F, 0>& steps, const H& hit, const Albedo& albedo,
+                                    Sampler& sampler, Statistics& account) {
     using T = scalar_t<V>;
     constexpr double most = 1.001; // more than that is no rounding
     Photon<V, F, 0> photon = steps.photon();
-    const F scattered = photon.flux * albedo;
-    const double arrived = steps.power(photon.flux), survival = steps.power(scattered) / arrived;
+    const double arrived = steps.power(photon.flux);
+    if (!(arrived > 0)) // from a black mirror, and no albedo is a share of nothing
+        return steps.end(arrived == 0 ? Fate::absorbed : Fate::invalid);
+    const auto scattered = static_cast<F>(photon.flux * albedo);
+    const double survival = steps.power(scattered) / arrived;
     if (!isfinite(survival) || has_negative_band(scattered) || has_band_above(scattered, photon.flux, most)) {
         note_invalid_albedo(hit, survival, account);
         return steps.end(Fate::invalid);
     }
+    if constexpr (HasShadingNormal<H, V>)
+        if (!is_unit(V(hit.shading_normal))) // no direction about it would be unit, or have the density cos/π
+            return steps.end(Fate::invalid);
     if (!(sampler.template next<double>() < survival))
         return steps.end(Fate::absorbed);
     photon.direction = diffuse_direction(photon.direction, hit, sampler, account);

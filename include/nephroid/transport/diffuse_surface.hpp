@@ -69,7 +69,7 @@ private:
         if (scattering.event == Event::deposit)
             return steps_.end(Fate::absorbed);
         ++account_.diffuse_events;
-        return bounce_diffusely(steps_, hit, F(scattering.weight), sampler, account_) && counts_bounce();
+        return bounce_diffusely(steps_, hit, scattering.weight, sampler, account_) && counts_bounce();
     }
 
     /// Goes on from a diffuse surface with the photon that the visitor returned.

@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 
@@ -132,6 +133,33 @@ TEST_CASE("directional light: aiming at a sphere leaves the flux through it unch
     const Sun<double> aimed({.direction = {1, 2, -3}, .irradiance = 2, .patch = target});
     check_same<double>(flux_of(wide, 100000, &target), aimed.power());
     CHECK(flux_of(aimed, 10000, &target).value() == doctest::Approx(aimed.power()).epsilon(1e-12));
+}
+
+// Its patch is all that shines: a wider one would be more light, from elsewhere.
+TEST_CASE("directional light: a laser that is aimed stays the same laser") {
+    using V = glm::dvec3;
+    const BoundingSphere<V> ball{{0.5, 0.3, 0.5}, 0.2};
+    for (const BeamPatch<V>& patch :
+         {BeamPatch<V>(BeamDisk<V>{{0.5, 0.9, 0.5}, 0.01}),
+          BeamPatch<V>(Parallelogram<V>{{0.5, 0.9, 0.5}, {0, 0, 0.01}, {0.01, 0.005, 0}})}) {
+        const Sun<double> laser({.direction = {0, -1, 0}, .irradiance = 1, .patch = patch});
+        const Sun<double> aimed = laser.aimed_at(ball);
+        CHECK(aimed.power() == laser.power());
+        for (std::uint64_t i = 0; i < 20; ++i)
+            CHECK(photon_of(aimed, i, 20).position == photon_of(laser, i, 20).position);
+    }
+}
+
+TEST_CASE("directional light: what stands in the way of a sun still does once it is aimed, also twice") {
+    using V = glm::dvec3;
+    const Sun<double> sun({.direction = {0, 0, -1}, .irradiance = 2, .patch = BoundingSphere<V>{{5, 0, 0}, 3}});
+    const double before = photon_of(sun, 1, 1).position.z;
+    for (const BoundingSphere<V>& ball : {BoundingSphere<V>{{5, 1, 0}, 0.1}, BoundingSphere<V>{{6, 1, -2}, 0.5}}) {
+        const Sun<double> aimed = sun.aimed_at(ball), twice = aimed.aimed_at({{5, 0, 1}, 0.01}).aimed_at(ball);
+        CHECK(aimed.power() == doctest::Approx(2 * pi<double> * ball.radius * ball.radius).epsilon(1e-12));
+        CHECK(photon_of(aimed, 1, 1).position.z >= before);
+        CHECK(length(V(photon_of(aimed, 1, 1).position - photon_of(twice, 1, 1).position)) < 1e-9);
+    }
 }
 
 TEST_CASE("directional light: parameters out of range are refused") {

@@ -50,8 +50,8 @@ public:
         validate_.sphere("scene's", options.scene);
         if (options.scene)
             origin_ = origin_ - distance_out_of(*options.scene) * direction_;
-        else if (std::holds_alternative<BoundingSphere<V>>(options.patch))
-            origin_ = origin_ - T(64) * std::get<BoundingSphere<V>>(options.patch).radius * direction_;
+        else if (sphere_)
+            origin_ = origin_ - T(64) * sphere_->radius * direction_;
         validate_.positive("patch's area", area_);
         basis_ = aligned_basis(normal_, direction_);
     }
@@ -69,9 +69,15 @@ public:
                 {Tangent<V>{d_length * basis_.u, zero}, Tangent<V>{d_length * basis_.v, zero}}};
     }
 
-    /// The same light over the shadow of a sphere alone.
+    /// The same light over the shadow of a sphere alone, if its patch is a sphere. A disk or a parallelogram is all
+    /// that shines, as of a laser: then there is nothing to aim, and the light stays as it is.
     [[nodiscard]] DirectionalLight aimed_at(const BoundingSphere<V>& target) const {
-        return DirectionalLight({direction_, irradiance_, target, scene_});
+        if (!sphere_)
+            return *this;
+        // No later than before, or what stood in the way of this light would not stand in the way of the aimed one.
+        const std::optional<BoundingSphere<V>> scene =
+            scene_ ? scene_ : BoundingSphere<V>{sphere_->centre, T(65) * sphere_->radius};
+        return DirectionalLight({direction_, irradiance_, target, scene});
     }
 
     [[nodiscard]] EmissionDomain exact_domain() const {
@@ -99,6 +105,7 @@ private:
     void cover(const BoundingSphere<V>& sphere) {
         validate_.finite("patch's centre", sphere.centre);
         validate_.positive("patch's radius", sphere.radius);
+        sphere_ = sphere;
         cover(beam_over(direction_, sphere));
     }
 
@@ -143,6 +150,7 @@ private:
     V direction_ = zero_vector<V>();
     F irradiance_;
     std::optional<BoundingSphere<V>> scene_;
+    std::optional<BoundingSphere<V>> sphere_; ///< the patch, if it is one
     bool is_disk_ = false;
     V origin_ = zero_vector<V>(); ///< the disk's centre or the parallelogram's corner
     V edge_u_ = zero_vector<V>(); ///< the disk's radius or the parallelogram's edge
