@@ -15,9 +15,9 @@ namespace nephroid {
 /// The share of a kernel's weight by the free distances about the nearest eye path vertex: for walls and edges as the
 /// renderer's own rays find them, but at least a twentieth. For estimates at or near the vertices.
 ///
-/// Share and estimate count what is turned by less than 60° from the normal. But the share ends at walls and steps, an
-/// estimate goes by distance alone: beside a thin screen the photons of both rooms count over the share of one room,
-/// so that the estimate is too bright. `splat_global` asks the free distances for each photon instead.
+/// Share and estimate count what is turned by less than 60° from the normal. The share ends at walls and steps, but an
+/// estimate goes by distance alone: beside a thin screen the photons of both rooms count over the share of one room, so
+/// that the estimate is too bright. `splat_global` asks the free distances for each photon instead.
 ///
 /// ```cpp
 /// const nephroid::FreeDistances distances(map, scene);
