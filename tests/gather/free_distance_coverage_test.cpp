@@ -44,4 +44,14 @@ TEST_CASE("free distance coverage: an estimate from stored photons is even up to
     CHECK(darkest < 0.35);
 }
 
+TEST_CASE("free distance coverage: it is at least a twentieth") {
+    Room<double> strip;
+    strip.walls = {{V(0), V(0.005, 0, 0), V(0, 2, 0), 0.5}};
+    const std::vector<RoomVertex<double>> vertices{{V(0.0025, 1, 0), V(0, 0, 1)}};
+    const auto map = map_of(vertices);
+    const FreeDistances<V> distances(map, strip, {.reach = 0.5});
+    CHECK(distances.coverage(0, 0.4, BiweightKernel{}) < 0.05);
+    CHECK(FreeDistanceCoverage<V>(distances)(vertices[0].position, V(0, 0, 1), 0.4) == 0.05);
+}
+
 } // namespace nephroid::tests::free_distance_coverage_test

@@ -78,10 +78,6 @@ template <class V>
     return {{.shape = {radius}}, &distances};
 }
 
-/// What of a kernel lies on the surface is taken as at least this much. Less is left in gaps that are far narrower than
-/// the disk, and free distances are not exact to more.
-inline constexpr double least_coverage = 0.05;
-
 /// The coverage of a disk about a vertex, bounded.
 ///
 /// @param bounded  counts the disks that were

@@ -132,7 +132,8 @@ inline constexpr std::size_t fewest_deposits_to_choose_by = 64;
 /// @param photons  how many these were
 /// @param all      how many the picture has: with more photons disks shrink as n^(−1/5), which balances noise and the
 ///                 bias along edges
-/// @return  at most the distances' reach; that reach itself if there is next to no light to judge by
+/// @return  at most the distances' reach, and above 0 unless the map is empty; that reach itself if there is next to
+///          no light to judge by
 template <class V, class F, class E>
 [[nodiscard]] double validated_radius(const FreeDistances<V>& distances, const QuarteredDeposits<V, F>& stored,
                                       std::uint64_t photons, std::uint64_t all, E& executor) {
@@ -142,7 +143,7 @@ template <class V, class F, class E>
         return reach;
     announce(executor, Phase::fit);
     const QuarterDisks disks(distances, stored);
-    std::vector<double> radii{(std::min)(disks.radius_with(in_smallest), reach / 2)};
+    std::vector<double> radii{std::clamp(disks.radius_with(in_smallest), reach / 65536, reach / 2)};
     while (radii.back() < reach && radii.size() < most_steps)
         radii.push_back((std::min)(reach, radii.front() * std::exp2(0.5 * double(radii.size()))));
     const std::vector<QuarterPictures> pictures = disks.estimates(radii, executor);

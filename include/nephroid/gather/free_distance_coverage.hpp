@@ -5,6 +5,7 @@
 #include "nephroid/gather/coverage.hpp"
 #include "nephroid/receiver/free_distances.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -12,8 +13,11 @@
 namespace nephroid {
 
 /// The share of a kernel's weight by the free distances about the nearest eye path vertex: for walls and edges as the
-/// renderer's own rays find them. For estimates at or near the vertices. Share and estimate count what lies on the same
-/// surface, turned by less than 60°.
+/// renderer's own rays find them, but at least a twentieth. For estimates at or near the vertices.
+///
+/// Share and estimate count what is turned by less than 60° from the normal. The share ends at walls and steps, but an
+/// estimate goes by distance alone: beside a thin screen the photons of both rooms count over the share of one room, so
+/// that the estimate is too bright. `splat_global` asks the free distances for each photon instead.
 ///
 /// ```cpp
 /// const nephroid::FreeDistances distances(map, scene);
@@ -42,7 +46,8 @@ public:
         std::array<Neighbour<T>, 1> nearest;
         const std::size_t found =
             map.tree().nearest(map.tree().relative(position), nearest, std::numeric_limits<T>::infinity(), faces);
-        return found > 0 ? distances_->coverage(nearest[0].slot, radius, kernel_) : T(1);
+        return found > 0 ? (std::max)(T(detail::least_coverage), distances_->coverage(nearest[0].slot, radius, kernel_))
+                         : T(1);
     }
 
 private:

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "nephroid/execution/executor.hpp"
+#include "nephroid/receiver/compass.hpp"
+#include "nephroid/receiver/default_reach.hpp"
 #include "nephroid/receiver/distance_table.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
 #include "nephroid/receiver/surface_probe.hpp"
-#include "nephroid/receiver/compass.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,7 +21,8 @@ namespace nephroid {
 
 /// How free distances are found.
 struct FreeDistanceOptions {
-    double reach = 0;         ///< how far surfaces are followed, world units; 0 is a third of the map's diagonal
+    double reach = 0;         ///< how far surfaces are followed, world units; 0 is about half of a room's width, from
+                              ///< the nine tenths of the vertices that are closest to their median
     unsigned directions = 32; ///< about each vertex: a multiple of 8, up to 256. With 8 a coverage is off by a tenth in
                               ///< corners, with 32 by a hundredth
 };
@@ -34,8 +36,11 @@ struct FreeDistanceOptions {
 /// nephroid::splat_global(scene, lamp, sums, distances, {.count = 20'000}, threads);
 /// ```
 ///
-/// Cost: 24 rays for a vertex with nothing near it, about 100 with walls or edges within reach. Memory: two bytes for
-/// each vertex and direction.
+/// The map's normals must be geometric. About one that is tilted by more than 14°, as shading normals may be, the
+/// surface leaves the tangent plane at once, and ends at the vertex in the directions in which it does.
+///
+/// Cost: 40 rays for a vertex with nothing near it, about 170 with walls or edges within reach. Memory: two bytes for
+/// each vertex and direction. Steps lower than a twentieth of the reach may be overlooked.
 /// include/nephroid/README.md, "Coverage", derives it.
 template <detail::MustBeVector V>
 class FreeDistances {
@@ -45,14 +50,12 @@ public:
     /// @param map       kept by reference; must outlive the distances
     /// @param scene     its `intersect` is called, from several threads; not needed after the call
     /// @param executor  who runs the work; the distances do not depend on it
-    /// Throws std::invalid_argument for a reach that is negative or not finite and directions that are not a multiple
-    /// of 8 from 8 to 256.
+    /// Throws std::invalid_argument for a reach that is negative or not finite, none where all vertices are in one
+    /// place, and directions that are not a multiple of 8 from 8 to 256.
     template <RayTracer<V> S, ExecutorArgument E = SerialExecutor>
     FreeDistances(const EyePathMap<V>& map, const S& scene, const FreeDistanceOptions& options = {}, E&& executor = E{})
         : map_(&map), table_(map.tree().slots(), checked_directions(options), checked_reach(options, map)),
           nearest_in_leaf_(map.tree().leaves().size(), table_.reach()) {
-        if (!(reach() > T(0))) // no vertices, or all in one place
-            return;
         std::vector<std::uint64_t> rays(map.tree().leaves().size());
         executor(rays.size(), [&](std::size_t leaf) { rays[leaf] = probe_leaf(scene, leaf); });
         for (const std::uint64_t of_leaf : rays)
@@ -67,8 +70,8 @@ public:
     /// Rays that were traced to find the distances.
     [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
-    /// The share of a kernel's mass that lies on the surface about a vertex, in [0, 1]: the mean over the directions of
-    /// its mass within the free distance.
+    /// The share of a kernel's mass that lies on the surface about a vertex, in [0, 1]: on the places that the vertex
+    /// `reaches`.
     ///
     /// @param slot    of the vertex in the map's tree
     /// @param radius  of the disk, world units, > 0
@@ -141,8 +144,12 @@ private:
     [[nodiscard]] static T checked_reach(const FreeDistanceOptions& options, const EyePathMap<V>& map) {
         if (!(options.reach >= 0) || !std::isfinite(options.reach))
             invalid_argument("nephroid::FreeDistances: reach is " + detail::text_of(options.reach) +
-                             "; it must be positive and finite, or 0 for a third of the map's diagonal");
-        return options.reach > 0 ? T(options.reach) : map.diagonal() / T(3);
+                             "; it must be positive and finite, or 0 to follow from the map");
+        const T reach = options.reach > 0 ? T(options.reach) : detail::default_reach(map);
+        if (!(reach > T(0)) && !map.tree().empty())
+            invalid_argument("nephroid::FreeDistances: all vertices are in one place, from which no reach follows; "
+                             "give a reach");
+        return reach;
     }
 
     [[nodiscard]] V normal_of(std::size_t slot) const {
@@ -152,7 +159,9 @@ private:
     /// @return  the number of rays
     template <class S>
     std::uint64_t probe_leaf(const S& scene, std::size_t number) {
-        detail::SurfaceProbe<S, V> probe(scene, reach());
+        const T spacing = map_->leaf(std::uint32_t(number)).spacing, most_lift = reach() / T(64);
+        detail::SurfaceProbe<S, V> probe(scene, reach(),
+                                         spacing > T(0) ? (std::min)(most_lift, T(2) * spacing) : most_lift);
         const TreeLeaf leaf = map_->tree().leaves()[number];
         for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot) {
             probe_vertex(probe, slot);

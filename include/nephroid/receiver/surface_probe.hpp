@@ -20,8 +20,10 @@ inline constexpr double one_surface_cosine = 0.5;
 ///
 /// A ray begins a little above the place and flies along the surface. What it hits ends the surface if its normal is
 /// turned by more than 60°; otherwise it is the surface, curved, and the next ray goes on from there. Where nothing
-/// stands in the way, rays downwards tell whether there is still surface below. If not, the edge is found by halving. A
-/// surface also ends where it has left the tangent plane by a quarter of the distance, as splats reach no further.
+/// stands in the way, rays downwards at 1/8, 1/4, 1/2 and all of the way tell whether there is still surface below, so
+/// that gaps narrower than half of their distance may be overlooked. Before the first place without surface the edge is
+/// found by halving, to a 64th of its distance and never beyond it. A surface also ends where it has left the tangent
+/// plane by a quarter of the distance, as splats reach no further.
 template <class S, Vector3 V>
     requires RayTracer<S, V>
 class SurfaceProbe {
@@ -30,8 +32,9 @@ public:
     using H = hit_t<S, V>;
 
     /// @param scene  kept by reference
-    /// @param reach  how far a surface is followed, world units, > 0. Steps lower than 1/64 of it are overlooked
-    SurfaceProbe(const S& scene, T reach) : scene_(scene), reach_(reach), least_lift_(reach / T(64)) {}
+    /// @param reach  how far a surface is followed, world units, > 0
+    /// @param lift   how far above the surface rays fly, world units, > 0: lower steps are overlooked
+    SurfaceProbe(const S& scene, T reach, T lift) : scene_(scene), reach_(reach), least_lift_(lift) {}
 
     /// The distance from a place up to which the surface goes on; `reach` if it goes on further.
     ///
@@ -67,7 +70,7 @@ public:
 
 private:
     static constexpr int most_segments = 32;
-    static constexpr int halvings = 6;
+    static constexpr int most_halvings = 10;
     static constexpr T most_rise = T(0.25); ///< off the tangent plane, over the distance
 
     struct Place {
@@ -109,20 +112,19 @@ private:
             const std::optional<Met> met = trace(above, V(-at.normal), T(2) * lift + most_rise * s);
             return met && is_same_surface(met->normal, normal);
         };
-        T ground = T(0), beyond = stands ? end - lift : end;
-        const T middle = beyond / T(2);
-        if (has_ground(middle)) {
-            if (has_ground(beyond))
+        const T furthest = stands ? end - lift : end;
+        T ground = T(0), beyond = furthest / T(8);
+        while (has_ground(beyond)) {
+            if (beyond == furthest)
                 return end;
-            ground = middle;
-        } else {
-            beyond = middle;
+            ground = beyond;
+            beyond = beyond < furthest / T(3) ? T(2) * beyond : furthest;
         }
-        for (int i = 0; i < halvings; ++i) {
+        for (int i = 0; i < most_halvings && beyond - ground > ground / T(64); ++i) {
             const T between = (ground + beyond) / T(2);
             (has_ground(between) ? ground : beyond) = between;
         }
-        return (ground + beyond) / T(2);
+        return ground; // not between the two: coverage would count what has no surface
     }
 
     const S& scene_;
