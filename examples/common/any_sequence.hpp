@@ -42,9 +42,11 @@ public:
             return sobol_.sample<T>(index, dimension);
         case SequenceKind::r2:
             return r2_.sample<T>(index, dimension);
-        default:
-            return halton_.sample<T>(index, dimension);
+        case SequenceKind::halton:
+        case SequenceKind::random: // never chosen: `make_sequence` makes another class for it
+            break;
         }
+        return halton_.sample<T>(index, dimension);
     }
 
 private:

@@ -119,6 +119,18 @@ TEST_CASE("caustics: what cannot be done is refused with a line that names the o
     CHECK(message({"ring", "--ground"}).find("built-in") != std::string::npos);
     CHECK(message({"ring", "--sun", "0,-1,0"}).find("built-in") != std::string::npos);
     CHECK(message({"ring", "--environment", "constant"}).find("built-in") != std::string::npos);
+    CHECK(message({"box", "--layer", "direct", "--bounces", "2"}).find("--bounces") != std::string::npos);
+    CHECK(message({"box", "--layer", "caustics", "--bounces", "all"}).find("--bounces") != std::string::npos);
+    CHECK(message({"box", "--layer", "indirect", "--bounces", "0"}).find("--bounces") != std::string::npos);
+    CHECK(message({"box", "--layer", "indirect", "--bounces", "1"}) == "accepted");
+    CHECK(message({"box", "--bounces", "0"}) == "accepted");
+    for (const char* const layer : {"direct", "indirect"}) {
+        CHECK(message({"box", "--layer", layer, "--smoothing", "auto"}).find("--smoothing") != std::string::npos);
+        CHECK(message({"box", "--layer", layer, "--first-order"}).find("--first-order") != std::string::npos);
+        CHECK(message({"box", "--layer", layer, "--curved"}).find("--curved") != std::string::npos);
+        CHECK(message({"box", "--layer", layer, "--kernel", "biweight"}).find("--kernel") != std::string::npos);
+        CHECK(message({"box", "--layer", layer}) == "accepted");
+    }
     for (const auto& text : {message({"ring", "--kernel", "box"}), message({"ring", "--nonsense"})})
         CHECK(text.find('\n') == std::string::npos);
 }

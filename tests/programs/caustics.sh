@@ -139,6 +139,10 @@ for layer in all direct caustics indirect; do
     done
     cmp ${layer}1.pfm ${layer}3.pfm || fail "cornell, $layer: the picture depends on the number of threads"
 done
+grep -q '"layer": "indirect"' indirect.json && grep -q '"bounces": "all"' indirect.json ||
+    fail "cornell: the statistics do not say of which light they are"
+[ "$(value caustics.json bounces)" = 0 ] || fail "cornell: bounces among its caustics"
+! grep -q "^note: " direct.txt indirect.txt || fail "notes on passes that were not asked for: $(cat direct.txt)"
 grep -q "disks' radius" indirect.txt || fail "cornell: does not say how wide the disks of indirect light are"
 ! grep -q "disks' radius" caustics.txt || fail "cornell: indirect light among its caustics"
 indirect_part() {
@@ -187,6 +191,16 @@ if [ $status -ne 127 ]; then # there is a timeout
     [ -z "$(ls | grep partial)" ] || fail "Ctrl-C left a part of a file behind"
 fi
 
+# What the interrupt left out is said.
+status=0
+timeout --preserve-status -s INT $seconds "$caustics" cornell --emit 1e12 --size 16 --output part.pfm --json part.json \
+    >part.txt 2>errors.txt || status=$?
+if [ $status -ne 127 ]; then
+    [ $status -eq 130 ] || fail "Ctrl-C in a room: status $status, $(cat errors.txt)"
+    grep -q "^note: interrupted before the light between diffuse surfaces" part.txt ||
+        fail "Ctrl-C in a room: does not say what is left out: $(cat part.txt)"
+fi
+
 # A refusal is one line on stderr, a status that is not zero, and no file.
 refuses() { # words in the message, arguments
     words=$1
@@ -233,6 +247,13 @@ refuses "layer" box.gltf --layer glass
 refuses "layer" ring --layer direct
 refuses "bounces" ring --bounces 2
 refuses "bounces" box --bounces some
+refuses "bounces" box --layer direct --bounces 2
+refuses "bounces" cornell --layer caustics --bounces all
+refuses "bounces" cornell --layer indirect --bounces 0
+refuses "smoothing" cornell --layer indirect --smoothing auto
+refuses "first-order" cornell --layer direct --first-order
+refuses "curved" box.gltf --layer indirect --curved
+refuses "kernel" cornell --layer direct --kernel biweight
 refuses "specular" box --layer caustics
 refuses "specular" box --bounces 0
 refuses "view" cornell --view 0 1 0 1

@@ -87,6 +87,10 @@ refuses "no-such-option" ring-disk --no-such-option
 refuses "bounces" ring-disk --bounces 2
 refuses "bounces" box --bounces some
 refuses "bounces" box --bounces -1
+refuses "bounces" box --layer direct --bounces 2
+refuses "bounces" cornell --layer caustics --bounces all
+refuses "samples" box --samples 1
+refuses "samples" floor.gltf --samples 1
 refuses "layer" ring-disk --layer indirect
 refuses "layer" box --layer glass
 refuses "eye-paths" box --eye-paths 0

@@ -26,6 +26,8 @@ Rendering render_layers(Options& options, const LayeredScene& seen, Report repor
     const auto camera = camera_from<float>(view, options.width, options.height);
     ThreadExecutor threads(options.threads);
     report.threads = threads.threads();
+    report.has_caustics = has_caustics;
+    report.bounces = has_indirect ? bounces : 0;
     Stopwatch stopwatch;
     const FileEyePaths eye = see_file_scene(scene, lamps, camera, options, threads);
     report.eye_vertices = eye.vertices.size();
@@ -42,7 +44,9 @@ Rendering render_layers(Options& options, const LayeredScene& seen, Report repor
         report.seconds.map = stopwatch.lap();
         if (has_caustics)
             add_caustics_of(scene, lamps, eye, map, options, threads, report, picture.pixels);
-        if (has_indirect && !report.interrupted)
+        if (has_indirect && report.interrupted)
+            report.note("interrupted before the light between diffuse surfaces");
+        else if (has_indirect)
             add_indirect_of(scene, lamps, eye, map, options, bounces, threads, report, picture.pixels);
     }
     report.seconds.total = total.lap();

@@ -106,6 +106,21 @@ void refuse_contradictions(const Options& options) {
         check_view(*options.view);
 }
 
+/// Options that the layer would ignore.
+void refuse_what_has_no_effect(const CLI::App& app, const Options& options) {
+    const std::string layer = name_in(layer_names(), options.layer);
+    const bool has_indirect = options.layer == Layer::all || options.layer == Layer::indirect;
+    const bool has_caustics = options.layer == Layer::all || options.layer == Layer::caustics;
+    if (!has_indirect && options.bounces)
+        throw UsageError("--bounces: --layer " + layer +
+                         " has no light between diffuse surfaces; leave one of them out");
+    if (options.layer == Layer::indirect && options.bounces == 0u)
+        throw UsageError("--bounces: without any, --layer indirect has no light");
+    for (const char* const name : {"--smoothing", "--first-order", "--curved", "--kernel"})
+        if (!has_caustics && app.count(name) > 0)
+            throw UsageError(std::string(name) + ": is for caustics, and --layer " + layer + " has none");
+}
+
 } // namespace
 
 const char* name_of(KernelKind kernel) { return name_in(kernels, kernel); }
@@ -197,6 +212,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     if (!reference.empty())
         options.reference = reference;
     refuse_contradictions(options);
+    refuse_what_has_no_effect(app, options);
     return options;
 }
 

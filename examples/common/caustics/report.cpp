@@ -54,6 +54,24 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
                        "  ");
 }
 
+/// What looks wrong in the passes of the layers that were asked for.
+[[nodiscard]] std::vector<std::string> diagnoses(const Report& report) {
+    std::vector<std::string> sentences;
+    if (report.has_caustics)
+        sentences = diagnose(report.statistics);
+    if (!report.indirect)
+        return sentences;
+    Statistics indirect = report.indirect->statistics;
+    if (report.bounces < all_bounces) // light that ends there does so as was asked
+        indirect.fates[static_cast<std::size_t>(Fate::terminated)] = {};
+    if (indirect.emitted.photons > 0 && indirect.diffuse_events == 0)
+        sentences.push_back("indirect light: no photon met a diffuse surface: does the lamp shine on one?");
+    else
+        for (const std::string& sentence : diagnose(indirect))
+            sentences.push_back("indirect light: " + sentence);
+    return sentences;
+}
+
 } // namespace
 
 void Report::note(const std::string& text) {
@@ -71,7 +89,7 @@ void print_table(std::ostream& out, const Options& options, const Report& report
         << (options.pixel_filter ? "" : ", no pixel filter")
         << text(", %zu x %zu, %u thread%s\n", options.width, options.height, report.threads,
                 report.threads == 1 ? "" : "s");
-    for (const std::string& sentence : diagnose(statistics))
+    for (const std::string& sentence : diagnoses(report))
         out << "note: " << sentence << '\n';
     line(out, "photons emitted", grouped(statistics.emitted.photons));
     line(out, "caustic photons", grouped(statistics.caustic_photons()));
@@ -128,6 +146,8 @@ std::string json_text(const Options& options, const Report& report) {
     for (const auto& [name, value] : passes(report.seconds))
         seconds.push_back({name, json_number(value)});
     top = {{"scene", json_string(options.scene)},
+           {"layer", json_string(name_in(layer_names(), options.layer))},
+           {"bounces", report.bounces < all_bounces ? std::to_string(report.bounces) : json_string("all")},
            {"smoothing", report.smoothing ? json_number(*report.smoothing) : json_string("auto")},
            {"order", options.first_order ? "1" : "2"},
            {"sequence", json_string(name_of(options.sequence))},

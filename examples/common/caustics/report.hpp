@@ -22,8 +22,10 @@ struct Timings {
 };
 
 struct Report {
-    Statistics statistics; ///< of caustics
+    Statistics statistics;    ///< of caustics
+    bool has_caustics = true; ///< otherwise there was no pass for them: not asked for, or nothing is specular
     std::optional<GlobalSplats> indirect;
+    unsigned bounces = 0; ///< off diffuse surfaces before the one that is seen, at most
     Timings seconds;
     std::size_t eye_vertices = 0;
     unsigned threads = 1;

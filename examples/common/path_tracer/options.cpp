@@ -6,7 +6,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <cmath>
 
 namespace nephroid::examples {
@@ -17,7 +16,8 @@ namespace {
 void read_room(TraceRequest& request, const CLI::App& app, const std::string& bounces, const std::string& layer) {
     RoomPictureOptions& room = request.room;
     room.layer = chosen("--layer", layer, layer_names());
-    room.tracing.bounces = bounces_in(bounces);
+    const bool has_bounces = is_room(request.scene) || room.layer == Layer::indirect; // by default, as in `caustics`
+    room.tracing.bounces = app.count("--bounces") > 0 ? bounces_in(bounces) : has_bounces ? all_bounces : 0;
     if (room.eye_paths < 1 || room.eye_paths > 4096)
         throw UsageError("--eye-paths: " + std::to_string(room.eye_paths) + " is not from 1 to 4096");
     if (!is_room_or_file(request.scene)) {
@@ -29,10 +29,15 @@ void read_room(TraceRequest& request, const CLI::App& app, const std::string& bo
     }
     if (app.count("--reflections") > 0)
         throw UsageError("--reflections: is for the ring");
+    if (app.count("--bounces") > 0 && (room.layer == Layer::direct || room.layer == Layer::caustics))
+        throw UsageError(std::string("--bounces: --layer ") + name_in(layer_names(), room.layer) +
+                         " has no light between diffuse surfaces; leave one of them out");
+    if (request.tracing.samples < 2)
+        throw UsageError("--samples: a room and a file take at least 2, as 1 tells no standard error");
     room.scene = request.scene;
     room.width = request.size.width, room.height = request.size.height;
     room.height_given = request.size.height_given;
-    room.tracing.samples = (std::max)(request.tracing.samples, std::uint64_t(2));
+    room.tracing.samples = request.tracing.samples;
     room.tracing.seconds = request.tracing.seconds;
     room.tracing.seed = request.tracing.seed;
 }
@@ -50,7 +55,7 @@ std::string traceable_names() {
 std::optional<TraceRequest> read_trace_request(int argc, const char* const* argv) {
     TraceRequest request;
     std::string size = "256", samples = "4096", seed = "0", output, standard_error, reflections = "any";
-    std::string bounces = "all", layer = "all";
+    std::string bounces, layer = "all";
     CLI::App app("Path traces light from lamps that have area, with a standard error for each pixel: the caustic of a "
                  "case on its floor, or what a camera sees of a room, by layers.",
                  "reference_path_tracer");
@@ -66,7 +71,9 @@ std::optional<TraceRequest> read_trace_request(int argc, const char* const* argv
     app.add_option("--layer", layer,
                    "all|direct|caustics|indirect: of a room; direct light meets nothing before the surface that is "
                    "seen, caustics mirrors and glass alone, indirect light a diffuse surface [all]");
-    app.add_option("--bounces", bounces, "Off diffuse surfaces before the one that is seen: a number or all [all]");
+    app.add_option("--bounces", bounces,
+                   "Off diffuse surfaces before the one that is seen: a number or all [all; of a file 0, but for "
+                   "--layer indirect]");
     app.add_option("--eye-paths", request.room.eye_paths, "Of a room, for each pixel [1]");
     app.add_option("--seed", seed, "Of the random numbers [0]");
     app.add_option("--threads", request.threads, "0 takes all that the machine has [0]; the picture is the same");
