@@ -45,7 +45,7 @@ template <class PictureOf>
     const QuarterPictures published = picture_of(default_smoothing * whole, false);
     const QuarterPictures chosen = picture_of(whole, true);
     const double order = stratified ? noise_order(picture_of(noise, false)) : 1;
-    for (const std::size_t with_first : {1, 2, 3}) {
+    for (std::size_t with_first = 1; with_first < 4; ++with_first) {
         const auto paired = [with_first](QuarterPictures q) {
             std::swap(q[1], q[with_first]);
             return q;
