@@ -26,7 +26,7 @@ template <Scalar T>
     const T sign = nz < T(0) ? T(-1) : T(1), a = T(-1) / (sign + nz), b = nx * ny * a; // as in frame_about
     const T x = (T(1) + sign * nx * nx * a) * dx + sign * (b * dy - nx * dz);
     const T y = b * dx + (sign + ny * ny * a) * dy - ny * dz;
-    const T along = x / (abs(x) + abs(y) + std::numeric_limits<T>::min()); // falls over the upper half, then rises
+    const T along = x / (abs(x) + abs(y) + (std::numeric_limits<T>::min)()); // falls over the upper half, then rises
     const T quarters = y < T(0) ? T(3) + along : T(1) - along;
     return std::int32_t(quarters * T(compass_points / 4));
 }

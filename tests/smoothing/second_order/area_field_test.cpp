@@ -233,32 +233,6 @@ TEST_CASE("area field: footprints shrink towards a border and only across it") {
           doctest::Approx(largest2).epsilon(1e-3)); // the border's direction is known to a hundredth
 }
 
-// As for two coordinates (group_field_test.cpp): in four, 4,096 photons are an eighth of the domain's width apart, 500
-// units of u0 = 0.001.
-TEST_CASE("area field: where tangents scatter, footprints are no larger than the published ones") {
-    const AreaLamp lamp{.width = 4, .unit = 0.001};
-    SerialExecutor executor;
-    for (const bool is_rough : {false, true}) {
-        const auto map = [=](const AreaSample& u) {
-            const double wave = std::sin(9973 * u[0] + 7919 * u[1] + 8831 * u[2] + 7001 * u[3]);
-            const double stretch = 1 + (is_rough ? 0.9 : 0.001) * wave;
-            return AreaLanding{{u[0] + u[2], u[1] + u[3], 0},
-                               {{{stretch, 0, 0}, {0, stretch, 0}, {stretch, 0, 0}, {0, stretch, 0}}}};
-        };
-        const AreaField field(lamp.photons(map, 4096), {.photons = 4e6}, executor);
-        for (const double at : {0.3, 0.45, 0.6}) {
-            const AreaPhoton photon = lamp.photon(map, {0.5, at, 0.5, at});
-            const auto here = field.at(photon.sample, photon.frame, photon.signature);
-            REQUIRE(here);
-            const double smoothing = std::pow(here->shape.determinant(), 0.25);
-            if (is_rough) // a mean of long shapes in several directions is rounder, and has more area than each
-                CHECK(smoothing < 1.1 * default_smoothing);
-            else
-                CHECK(smoothing > 1.5 * default_smoothing);
-        }
-    }
-}
-
 TEST_CASE("area field: photons outside the field get the default smoothing") {
     const AreaLamp lamp;
     const auto photons = lamp.photons(quadratic, 1000);

@@ -10,7 +10,6 @@
 #include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
 #include "nephroid/smoothing/second_order/tangent_jumps.hpp"
-#include "nephroid/smoothing/second_order/tangent_scatter.hpp"
 
 #include <array>
 #include <cmath>
@@ -69,7 +68,6 @@ inline void fit_derivatives(AreaCell& cell, std::size_t index, const AreaCells& 
     std::vector<TangentResidual> near_photons;
     if (!fit.solve(cell.map, cell.samples_by_step, near_photons))
         return;
-    cell.scatter = tangent_scatter(near_photons);
     const double rough = roughness(tangent_jumps(near_photons));
     cell.log_q = log_bending(slice_bending(cell.map, options.photons, rough), options.bounds);
     cell.is_resolved = std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);

@@ -18,7 +18,6 @@
 #include "nephroid/smoothing/second_order/area_photons.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
-#include "nephroid/smoothing/second_order/tangent_scatter.hpp"
 
 #include <algorithm>
 #include <array>
@@ -99,7 +98,7 @@ private:
     void choose_shape(AreaCell& cell, std::size_t index) const {
         if (!cell.is_resolved)
             return;
-        double weights = 0, scatter = 0;
+        double weights = 0;
         Symmetric2 blurred{};
         area_.grid.for_each_around(index, [&](const std::array<int, 4>& step, std::size_t other) {
             if (other == area_.grid.size() || !area_.are_linked(index, other))
@@ -109,14 +108,13 @@ private:
                 weight *= 2 - std::abs(s);
             const AreaCell& around = area_.cells[other];
             blurred += weight * congruent(cell.frame.rotation_of(around.frame), around.log_q);
-            scatter += weight * around.scatter;
             weights += weight;
         });
         Symmetric2 shape = area_shape_tensor((1 / weights) * blurred, options_.stratified, options_.bounds);
         if (std::isfinite(cell.border_distance))
             shape =
                 bounded_along(shape, cell.border_direction, (std::max)(least_border_radius, 2 * cell.border_distance));
-        cell.shape = bounded_by_scatter(options_.scale * shape, scatter / weights, options_.bounds.least);
+        cell.shape = options_.scale * shape;
     }
 
     static constexpr double least_border_radius = 8; ///< in u0: shorter radii beside a border would show noise

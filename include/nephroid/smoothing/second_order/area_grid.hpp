@@ -24,7 +24,6 @@ struct AreaCell {
     EmissionFrame frame;   ///< of the photon nearest to the middle, among those on the commonest path
     PathDerivatives map{}; ///< at the middle; derivatives along the frame's tangents
     std::array<Plane2, 4> samples_by_step{};
-    double scatter = 0; ///< of the photons' tangents about the map (tangent_scatter)
     Symmetric2 log_q{}, shape{};
     std::uint32_t signature = 0; ///< of the commonest path
     bool has_frame = false;

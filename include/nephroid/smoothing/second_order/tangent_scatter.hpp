@@ -30,10 +30,10 @@ namespace nephroid::detail {
 
 /// S with no more area than tangents allow that scatter.
 ///
-/// Between photons of the pilot nothing is known of such a map. How much it bends is estimated from their differences
-/// over their distances, and this estimate is too small if the distances are long: in a pass of many more photons, and
-/// among the four coordinates of area lights. Where the scatter is a fifth or more, footprints are no larger than the
-/// published ones. Their area is bounded in inverse proportion to the scatter, so that they do not change at once.
+/// Between photons of the pilot nothing is known of such a map. How much it bends is estimated from their
+/// differences over their distances, and this estimate is too small if the distances are long, as in a pass of
+/// many more photons. Where the scatter is a fifth or more, footprints are no larger than the published ones.
+/// Their area is bounded in inverse proportion to the scatter, so that they do not change at once.
 ///
 /// @param least  lower bound of s
 [[nodiscard]] inline Symmetric2 bounded_by_scatter(const Symmetric2& s, double scatter, double least) {
