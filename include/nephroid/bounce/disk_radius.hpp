@@ -89,15 +89,15 @@ private:
         const V position = vertex(slot), relative = tree_.relative(position);
         const V normal = make_vector<V>(map.normal_x()[slot], map.normal_y()[slot], map.normal_z()[slot]);
         const double normal_distance = disks_of(1, distances_).normal_distance;
-        const double spacing = double(map.spacing_at(position)), far = radii.back();
-        const T reach = T(far), x = t::x(relative), y = t::y(relative), z = t::z(relative);
+        const double spacing = double(map.spacing_at(position)), furthest = radii.back();
+        const T reach = T(furthest), x = t::x(relative), y = t::y(relative), z = t::z(relative);
         tree_.visit_leaves(Box<T>{{x - reach, y - reach, z - reach}, {x + reach, y + reach, z + reach}},
                            [&](std::uint32_t number) {
                                const TreeLeaf leaf = tree_.leaves()[number];
                                for (std::size_t i = leaf.first; i < leaf.first + leaf.size; ++i) {
                                    const V from = make_vector<V>(tree_.x()[i] - x, tree_.y()[i] - y, tree_.z()[i] - z);
                                    const double distance2 = double(length2(from));
-                                   if (!(distance2 < far * far))
+                                   if (!(distance2 < furthest * furthest))
                                        continue;
                                    const Deposit<V, F, 0>& deposit = stored_.deposits[tree_.index(i)];
                                    if (!(dot(deposit.normal, normal) > T(one_surface_cosine)))
