@@ -50,10 +50,9 @@ template <class PictureOf>
             std::swap(q[1], q[with_first]);
             return q;
         };
-        for (const double o : {1.0, order}) // wide footprints of stratified photons have less noise than either has it
-            if (!(validated_error_of_pass(paired(published), paired(sharp), share, o) <
-                  validated_error_of_pass(paired(chosen), paired(sharp), share, o)))
-                return false;
+        if (!(validated_error_of_pass(paired(published), paired(sharp), share, order) <
+              validated_error_of_pass(paired(chosen), paired(sharp), share, order)))
+            return false;
     }
     return true;
 }

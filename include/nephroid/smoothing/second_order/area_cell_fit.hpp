@@ -7,16 +7,13 @@
 #include "nephroid/smoothing/second_order/area_photons.hpp"
 #include "nephroid/smoothing/second_order/bending.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
-#include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/smoothing/second_order/smoothing_rule.hpp"
-#include "nephroid/smoothing/second_order/tangent_jumps.hpp"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace nephroid::detail {
 
@@ -65,10 +62,9 @@ inline void fit_derivatives(AreaCell& cell, std::size_t index, const AreaCells& 
                     turned(photons[i].tangents, cell.frame.rotation_of(photons[i].frame)), away, rest * rest);
         }
     });
-    std::vector<TangentResidual> near_photons;
-    if (!fit.solve(cell.map, cell.samples_by_step, near_photons))
+    double rough = 0;
+    if (!fit.solve(cell.map, cell.samples_by_step, rough))
         return;
-    const double rough = roughness(tangent_jumps(near_photons));
     cell.log_q = log_bending(slice_bending(cell.map, options.photons, rough), options.bounds);
     cell.is_resolved = std::isfinite(cell.log_q.trace()) && std::isfinite(cell.log_q.xy);
 }

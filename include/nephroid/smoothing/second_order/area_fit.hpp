@@ -4,7 +4,7 @@
 
 #include "nephroid/smoothing/second_order/area_cells.hpp"
 #include "nephroid/smoothing/second_order/emission_frame.hpp"
-#include "nephroid/smoothing/second_order/tangent_jumps.hpp"
+#include "nephroid/smoothing/second_order/roughness.hpp"
 #include "nephroid/vector/least_squares.hpp"
 
 #include <algorithm>
@@ -50,10 +50,9 @@ public:
 
     /// @param result           gets J, H, and T (0 where there are too few photons)
     /// @param samples_by_step  gets the derivatives of the emission coordinates by σ
-    /// @param near_photons     gets those near the wanted point, with what the fit does not explain of their tangents
+    /// @param rough            gets the `roughness` of the photons near the wanted point
     /// @return  whether the photons determine J, H, M and the wanted point's position
-    [[nodiscard]] bool solve(PathDerivatives& result, std::array<Plane2, 4>& samples_by_step,
-                             std::vector<TangentResidual>& near_photons) const {
+    [[nodiscard]] bool solve(PathDerivatives& result, std::array<Plane2, 4>& samples_by_step, double& rough) const {
         LeastSquares<4, double> wanted_point;
         for (std::size_t i = 0; i < 4; ++i) {
             std::array<double, 5> s;
@@ -72,6 +71,7 @@ public:
         for (const Neighbour& photon : photons_)
             heaviest = (std::max)(heaviest, photon.weight);
         std::vector<std::pair<Row, Row>> near_rows;
+        std::vector<TangentResidual> near_photons;
         for (const Neighbour& photon : photons_) {
             const Plane2 position = photon.at.position + Plane2{-zero[0], -zero[1]};
             const Plane2 direction = photon.at.direction + Plane2{-zero[2], -zero[3]};
@@ -81,7 +81,7 @@ public:
                 v{0, 1, 0, s.x, s.y, 0, 0, t.x, t.y, 0, xx, xy, yy};
             equations.add(u, photon.tangents.u, photon.weight);
             equations.add(v, photon.tangents.v, photon.weight);
-            if (photon.weight > 0.4 * heaviest) { // tangent_jumps compares all pairs, which takes long for all photons
+            if (photon.weight > 0.4 * heaviest) { // roughness compares all pairs, which takes long for all photons
                 near_rows.emplace_back(u, v);
                 near_photons.push_back({{s.x, s.y, t.x, t.y}, {photon.tangents.u, photon.tangents.v}, {}});
             }
@@ -98,6 +98,7 @@ public:
                 near_photons[i].residual[1] += -near_rows[i].second[k] * x[k];
             }
         }
+        rough = roughness(tangent_jumps(near_photons));
         return true;
     }
 
