@@ -19,42 +19,42 @@
 namespace nephroid::detail {
 
 /// The squared error of a pass, summed over the vertices, plus a constant: from pictures of a part of its photons with
-/// the footprints of the pass.
+/// the footprints of the pass. In four coordinates even photons of a stratified sequence are nearly random, so that
+/// halves are independent and the variance falls with the number of photons.
 ///
 /// @param sharp  pictures of the same quarters with small footprints
 /// @param share  of the pass's photons that the pictures are made of, in (0, 1]
-/// @param order  from noise_order, 1 for random photons
 [[nodiscard]] inline double validated_error_of_pass(const QuarterPictures& q, const QuarterPictures& sharp,
-                                                    double share, double order) {
+                                                    double share) {
     double variance = 0; // of the picture from all quarters
     for (std::size_t i = 0; i < q[0].size(); ++i)
         variance += square(0.25 * ((q[0][i] + q[1][i]) - (q[2][i] + q[3][i])));
-    return validated_error(q, sharp, order) - (1 - share) * variance;
+    return validated_error(q, sharp, 1) - (1 - share) * variance;
 }
 
 /// Whether photons of one lamp with area, splatted as published, predict each other better than with the footprints
-/// chosen for them, however their quarters are paired to halves. (Pieces of curved footprints are compared as one.)
+/// chosen for them: as a mean over the three ways to pair their quarters to halves. (Pieces of curved footprints are
+/// compared as one.)
 ///
 /// @param picture_of  picture_of(smoothing, is_chosen) -> QuarterPictures
 /// @param share       of the pass's photons that are in the pictures
 /// @param whole       undoes what widens the footprints of a part
 template <class PictureOf>
-[[nodiscard]] bool is_published_better(const PictureOf& picture_of, double share, double whole, bool stratified) {
-    constexpr double sharpest = 2.5, noise = 5; // as cross_validated has them
+[[nodiscard]] bool is_published_better(const PictureOf& picture_of, double share, double whole) {
+    constexpr double sharpest = 2.5; // as cross_validated has it
     const QuarterPictures sharp = picture_of(sharpest, false);
     const QuarterPictures published = picture_of(default_smoothing * whole, false);
     const QuarterPictures chosen = picture_of(whole, true);
-    const double order = stratified ? noise_order(picture_of(noise, false)) : 1;
+    double lead = 0;
     for (std::size_t with_first = 1; with_first < 4; ++with_first) {
         const auto paired = [with_first](QuarterPictures q) {
             std::swap(q[1], q[with_first]);
             return q;
         };
-        if (!(validated_error_of_pass(paired(published), paired(sharp), share, order) <
-              validated_error_of_pass(paired(chosen), paired(sharp), share, order)))
-            return false;
+        lead += validated_error_of_pass(paired(chosen), paired(sharp), share) -
+                validated_error_of_pass(paired(published), paired(sharp), share);
     }
-    return true;
+    return lead > 0;
 }
 
 /// The lamps with area, by number, that are better splatted as published; rising.
@@ -63,7 +63,7 @@ template <class PictureOf>
 template <class V, class F, class R, class Policies, class Photon, class Footprints, class E>
 [[nodiscard]] std::vector<std::uint32_t>
 lamps_better_published(const Sums<V, F, R>& sums, const Policies& policies, const Pilot<Photon>& pilot,
-                       const Footprints& footprints, const PhotonPass& pass, bool stratified, E& executor) {
+                       const Footprints& footprints, const PhotonPass& pass, E& executor) {
     constexpr std::size_t fewest = 1000; // photons of a lamp that must land, to tell
     std::map<std::uint32_t, std::size_t> landed;
     for (const Photon& photon : pilot.photons)
@@ -93,8 +93,8 @@ lamps_better_published(const Sums<V, F, R>& sums, const Policies& policies, cons
     };
     for (const auto& [number, deposits] : landed) {
         lamp = number;
-        if (deposits >= fewest && is_published_better(picture_of, double(count) / photons,
-                                                      std::sqrt(double(count / 4 * 4) / photons), stratified))
+        if (deposits >= fewest &&
+            is_published_better(picture_of, double(count) / photons, std::sqrt(double(count / 4 * 4) / photons)))
             published.push_back(number);
     }
     return published;
