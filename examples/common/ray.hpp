@@ -124,7 +124,7 @@ struct ContactOrder {
     template <class Cosine>
     [[nodiscard]] bool leaves_out(std::uint32_t primitive, const wide_t<T>& distance, const Cosine& cosine) const {
         const std::uint64_t number = part << 32 | primitive;
-        return contacts.may_leave_out(number, T(distance)) && contacts.leave_out(number, T(distance), T(cosine()));
+        return contacts.may_skip(number, T(distance)) && contacts.skips(number, T(distance), T(cosine()));
     }
 };
 

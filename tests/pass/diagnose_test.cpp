@@ -184,7 +184,7 @@ TEST_CASE("diagnose: shading normals on the wrong side") {
     Statistics account;
     account.emitted = {100, 1};
     account.diffuse_events = 300;
-    account.bounces = 200;
+    account.diffuse_bounces = 200;
     account.corrected_normals = 20;
     CHECK(says(diagnose(account), 0, "10% of the reflections, refractions and bounces used the geometric normal"));
     account.corrected_normals = 9;

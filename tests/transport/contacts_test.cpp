@@ -36,7 +36,7 @@ struct TouchingSheets : SheetScene<float> {
             const glm::dvec3 n = nephroid::normalize(glm::dvec3(sheets[i].normal));
             const double slope = nephroid::dot(n, glm::dvec3(d));
             const double distance = nephroid::dot(n, glm::dvec3(sheets[i].centre) - glm::dvec3(o)) / slope;
-            if (!(distance > t_min && distance < t_max) || contacts.leave_out(i, float(distance), float(slope)))
+            if (!(distance > t_min && distance < t_max) || contacts.skips(i, float(distance), float(slope)))
                 continue;
             const bool is_glass = sheets[i].event == Event::refract;
             const int rank = is_glass ? (slope > 0 ? 1 : 0) : 2;
@@ -152,12 +152,12 @@ TEST_CASE("contacts: what is reflected at a surface that touches another comes b
 TEST_CASE("contacts: a ball is met again from its inside and not from where it was left") {
     Contacts<double> contacts;
     contacts.leave(7, -0.6, 1e-6, true, false); // into the ball, whose normals point out
-    CHECK(contacts.leave_out(7, 1e-9, -0.6));
-    CHECK(contacts.leave_out(7, -1e-9, -0.6));
-    CHECK(contacts.leave_out(7, 1e-4, -0.001)); // the same place, badly seen
-    CHECK_FALSE(contacts.leave_out(7, 1.2, 0.6));
-    CHECK_FALSE(contacts.leave_out(8, 1e-9, -0.6)); // another that touches
-    CHECK(contacts.leave_out(8, -1e-3, -0.6));      // what lies behind
+    CHECK(contacts.skips(7, 1e-9, -0.6));
+    CHECK(contacts.skips(7, -1e-9, -0.6));
+    CHECK(contacts.skips(7, 1e-4, -0.001)); // the same place, badly seen
+    CHECK_FALSE(contacts.skips(7, 1.2, 0.6));
+    CHECK_FALSE(contacts.skips(8, 1e-9, -0.6)); // another that touches
+    CHECK(contacts.skips(8, -1e-3, -0.6));      // what lies behind
 }
 
 // Sheets that are found again where the ray begins: the one that was left, as if it were the triangle beside it.
@@ -185,18 +185,18 @@ TEST_CASE("contacts: a vertex may have more triangles than are remembered") {
     contacts.leave(0, down, 1e-6f, true, false);
     unsigned met = 0;
     for (std::uint64_t triangle = 1; triangle < 40; ++triangle)
-        if (!contacts.leave_out(triangle, 0, down)) { // each is met at most once
+        if (!contacts.skips(triangle, 0, down)) { // each is met at most once
             contacts.leave_beside(triangle);
-            CHECK(contacts.leave_out(triangle, 0, down));
+            CHECK(contacts.skips(triangle, 0, down));
             ++met;
         }
     CHECK(met == 8); // 7 more are remembered, and the next one ends the list
     for (std::uint64_t triangle = 0; triangle < 40; ++triangle)
-        CHECK(contacts.leave_out(triangle, 0, down));
-    CHECK_FALSE(contacts.leave_out(40, 0, up));        // a table there, which faces the ray
-    CHECK_FALSE(contacts.leave_out(40, 0.001f, down)); // what lies ahead
-    contacts.leave(40, down, 1e-6f, true, false);      // elsewhere nothing is left of it
-    CHECK_FALSE(contacts.leave_out(1, 0, down));
+        CHECK(contacts.skips(triangle, 0, down));
+    CHECK_FALSE(contacts.skips(40, 0, up));        // a table there, which faces the ray
+    CHECK_FALSE(contacts.skips(40, 0.001f, down)); // what lies ahead
+    contacts.leave(40, down, 1e-6f, true, false);  // elsewhere nothing is left of it
+    CHECK_FALSE(contacts.skips(1, 0, down));
 }
 
 } // namespace nephroid::tests::contacts_test

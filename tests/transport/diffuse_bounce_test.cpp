@@ -53,7 +53,7 @@ struct Everything {
 
     void deposit(const Landed& deposit, const WalkedPath<>& path) {
         deposits.push_back(deposit);
-        bounces.push_back(path.bounces);
+        bounces.push_back(path.diffuse_bounces);
     }
 };
 struct AllButDirect : Everything {
@@ -89,7 +89,7 @@ using Bands = glm::dvec3;
 struct Count {
     static constexpr bool follows_bounces = true;
     std::uint64_t seen = 0;
-    void deposit(const Deposit<D, Bands, 0>&, const WalkedPath<>& path) { seen += path.bounces > 0; }
+    void deposit(const Deposit<D, Bands, 0>&, const WalkedPath<>& path) { seen += path.diffuse_bounces > 0; }
 };
 
 /// A room as a renderer writes it whose surfaces are grey: the weight is a number, and the light a spectrum that cannot
@@ -163,8 +163,8 @@ TEST_CASE("diffuse bounce: the account of a closed room is that of its emission,
     CHECK(account[Arrival::direct].flux == doctest::Approx(account.emitted.flux));
     CHECK(account[Arrival::caustic].photons == 0);
     CHECK(account[Arrival::indirect].photons == visitor.seen);
-    CHECK(account[Arrival::indirect].photons == account.bounces); // closed: each lands again
-    CHECK(account.diffuse_events == 4000 + account.bounces);
+    CHECK(account[Arrival::indirect].photons == account.diffuse_bounces); // closed: each lands again
+    CHECK(account.diffuse_events == 4000 + account.diffuse_bounces);
     CHECK(account[Fate::absorbed].photons == 4000);
 }
 
@@ -195,7 +195,7 @@ TEST_CASE("diffuse bounce: photons end at a surface that says deposit, and after
     Room<double> room{box_walls<double, double>(1.0)};
     const PointLight<D, double> lamp({{0.4, 0.5, 0.6}, 1 / (4 * std::numbers::pi)});
     Everything endless;
-    const Statistics cut = follow(room, lamp, 100, endless, {.bounces = 3});
+    const Statistics cut = follow(room, lamp, 100, endless, {.diffuse_bounces = 3});
     CHECK(endless.deposits.size() == 400);
     CHECK(cut[Fate::terminated].flux == doctest::Approx(1));
     for (Wall<double, double>& wall : room.walls)
@@ -247,7 +247,7 @@ TEST_CASE("diffuse bounce: a shading normal that is not unit makes the photon in
         const Statistics account = follow(room, PointLight<D, double>({{0.4, 0.5, 0.6}, 1.0}), 50, visitor);
         CHECK(account[Fate::invalid].photons == 50);
         CHECK(account.invalid_albedos == 0);
-        CHECK(account.bounces == 0);
+        CHECK(account.diffuse_bounces == 0);
     }
     Everything visitor;
     const BadNormals rounded{{box_walls<double, double>(0.5)}, 1.001};

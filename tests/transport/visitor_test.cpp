@@ -342,8 +342,8 @@ struct Bounces {
     std::vector<double> received_by_bounce{};
 
     [[nodiscard]] std::optional<Photon<D, double>> deposit(const Landed& deposit, const WalkedPath<>& path) {
-        received_by_bounce.resize((std::max)(received_by_bounce.size(), std::size_t(path.bounces) + 1));
-        received_by_bounce[path.bounces] += deposit.flux;
+        received_by_bounce.resize((std::max)(received_by_bounce.size(), std::size_t(path.diffuse_bounces) + 1));
+        received_by_bounce[path.diffuse_bounces] += deposit.flux;
         const double u = sampler->next<double>(), v = sampler->next<double>();
         const D direction = cosine_direction(deposit.normal, frame_about(deposit.normal), concentric_disk(u, v));
         const PhotonDifferential<D, 2> arrived{Tangent<D>{deposit.d_position[0], D(0)},
@@ -374,7 +374,7 @@ TEST_CASE("visitor: a photon that is sent on from diffuse surfaces lights a furn
         visitor.sampler = &sampler;
         const double u = sampler.next<double>(), v = sampler.next<double>();
         const auto photon = from_point<double>({0.1, 0.2, 0.3}, sphere_direction<D>(u, v), 2.0);
-        walk(room(), photon, sampler, {.bounces = bounces}, account, visitor);
+        walk(room(), photon, sampler, {.diffuse_bounces = bounces}, account, visitor);
     }
     REQUIRE(visitor.received_by_bounce.size() == bounces + 1);
     for (unsigned b = 0; b <= bounces; ++b) {
@@ -392,10 +392,10 @@ TEST_CASE("visitor: flights after a bounce count it and begin at the surface") {
     Sampler<RandomSequence> sampler(random, 0);
     visitor.sampler = &sampler;
     Statistics account;
-    walk(room(), from_point<double>({0, 0, 0}, {1, 0.2, 0.3}), sampler, {.bounces = 3}, account, visitor);
+    walk(room(), from_point<double>({0, 0, 0}, {1, 0.2, 0.3}), sampler, {.diffuse_bounces = 3}, account, visitor);
     REQUIRE(visitor.seen.size() == 4);
     for (unsigned i = 0; i < 4; ++i) {
-        CHECK(visitor.seen[i].bounces == i);
+        CHECK(visitor.seen[i].diffuse_bounces == i);
         CHECK(visitor.seen[i].origin_normal.has_value() == (i > 0));
         if (i > 0) {
             check_close(visitor.seen[i].origin, visitor.seen[i - 1].end(), 1e-12);

@@ -28,7 +28,7 @@ void add_indirect_of(const FileScene& scene, const FileLamps& lamps, const FileE
                         progress.show(done);
                         return !is_interrupted();
                     }};
-    pass.limits.bounces = bounces;
+    pass.limits.diffuse_bounces = bounces;
     std::visit(
         [&](const auto& sequence) {
             report.indirect = splat_global(scene, lights, sums, distances, pass, sequence, threads);

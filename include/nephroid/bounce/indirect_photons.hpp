@@ -21,7 +21,7 @@ struct IndirectDeposits {
     std::vector<Deposit<V, F, 0>> found{};
 
     void deposit(const Deposit<V, F, 0>& deposit, const WalkedPath<>& path) {
-        if (path.bounces > 0)
+        if (path.diffuse_bounces > 0)
             found.push_back(deposit);
     }
 };

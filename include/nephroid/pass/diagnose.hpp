@@ -72,10 +72,10 @@ inline void look_at_paths(const Statistics& s, std::vector<Finding>& found) {
         "the same surface again and `position_error` is too small for its tracer");
     add(part_of(s[Fate::terminated].flux, s.emitted.flux), 0.05,
         bounces ? "the light was terminated on long paths: a closed scene of albedos near 1 holds it that long; raise "
-                  "`WalkLimits::bounces`, or look for rays that hit the surface they leave"
+                  "`WalkLimits::diffuse_bounces`, or look for rays that hit the surface they leave"
                 : "the light was terminated on long paths: raise `WalkLimits::specular_events`, or look for rays that "
                   "hit the surface they leave");
-    add(part_of(double(s.corrected_normals), double(s.specular_events) + double(s.bounces)), 0.05,
+    add(part_of(double(s.corrected_normals), double(s.specular_events) + double(s.diffuse_bounces)), 0.05,
         "the reflections, refractions and bounces used the geometric normal, as the shading normal would have sent the "
         "ray through the surface: check that both are on one side");
 }

@@ -35,7 +35,7 @@ NEPHROID_NOINLINE inline void check(const SheetOptions& options, const char* cal
     const Tessellation& quads = options.tessellation;
     require(is_positive(quads.bend), "tessellation.bend", quads.bend, "positive and finite");
     require(is_positive(quads.density), "tessellation.density", quads.density, "positive and finite");
-    require(quads.most >= 1 && quads.most <= 32, "tessellation.most", quads.most, "from 1 to 32");
+    require(quads.max_quads >= 1 && quads.max_quads <= 32, "tessellation.max_quads", quads.max_quads, "from 1 to 32");
     const Refinement& cells = options.refinement;
     require(cells.levels <= 10, "refinement.levels", cells.levels, "at most 10");
     require(is_positive(cells.tolerance), "refinement.tolerance", cells.tolerance, "positive and finite");

@@ -12,9 +12,9 @@ namespace nephroid {
 /// How finely patches of light are cut into flat quads. The errors of a picture's folds follow `bend`, those where
 /// light is smooth follow `density`.
 struct Tessellation {
-    double bend = 0.01;    ///< how far a quad may miss the patch, in pixels; > 0
-    double density = 0.03; ///< how much the density of light may change over a quad, of itself; > 0
-    unsigned most = 32;    ///< quads along each side at most, 1 to 32
+    double bend = 0.01;      ///< how far a quad may miss the patch, in pixels; > 0
+    double density = 0.03;   ///< how much the density of light may change over a quad, of itself; > 0
+    unsigned max_quads = 32; ///< quads along each side at most, 1 to 32
 };
 
 namespace detail {
@@ -56,7 +56,7 @@ struct PatchShape {
     const double by_density =
         (std::min)(std::ceil(shape.change / (rule.density * tolerance)), std::ceil(shape.longest / pixel));
     const double wanted = (std::max)(by_bend, by_density);
-    return wanted < double(rule.most) ? (std::max)(1u, unsigned(wanted)) : rule.most; // NaN: the most
+    return wanted < double(rule.max_quads) ? (std::max)(1u, unsigned(wanted)) : rule.max_quads; // NaN: the most
 }
 
 } // namespace detail

@@ -68,7 +68,7 @@ struct Statistics {
     std::uint64_t rays = 0;            ///< traced
     std::uint64_t specular_events = 0; ///< reflections and refractions
     std::uint64_t diffuse_events = 0;  ///< arrivals at surfaces that may send light on (Event::diffuse)
-    std::uint64_t bounces = 0;         ///< photons that these surfaces sent on
+    std::uint64_t diffuse_bounces = 0; ///< photons that these surfaces sent on
     std::uint64_t branches = 0;        ///< additional ways, if all ways are followed: the fates count this many photons
                                        ///< more than were emitted
     std::uint64_t corrected_normals = 0; ///< events that used the geometric normal, because the shading normal sent the
@@ -128,7 +128,7 @@ struct Statistics {
         rays += other.rays;
         specular_events += other.specular_events;
         diffuse_events += other.diffuse_events;
-        bounces += other.bounces;
+        diffuse_bounces += other.diffuse_bounces;
         branches += other.branches;
         corrected_normals += other.corrected_normals;
         hits_at_start += other.hits_at_start;

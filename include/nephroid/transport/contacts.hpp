@@ -16,7 +16,7 @@ namespace nephroid {
 
 /// Says which primitives a ray leaves out, for scenes with `intersect(origin, direction, t_min, t_max, contacts)` whose
 /// hits have a `primitive`, the number of their triangle or shape. The ray then begins on the surface that it leaves
-/// instead of a little off it, and t_min is a little below 0. The scene calls `leave_out` for each candidate, and
+/// instead of a little off it, and t_min is a little below 0. The scene calls `skips` for each candidate, and
 /// returns the nearest one that is not left out. Among candidates at the same distance, to rounding, it should prefer a
 /// surface where the ray enters an object, then one where it leaves an object, and an opaque surface last. Then there
 /// is no air between water and its glass (with Media, transport/media.hpp), and light leaves a glass before it falls
@@ -27,7 +27,7 @@ namespace nephroid {
 /// another object. Light then misses an object that touches a glass at just that point.
 ///
 /// ```cpp
-/// if (t > t_min && t < nearest && !contacts.leave_out(triangle, t, dot(direction, normal)))
+/// if (t > t_min && t < nearest && !contacts.skips(triangle, t, dot(direction, normal)))
 ///     nearest = t;
 /// ```
 template <Scalar T>
@@ -37,15 +37,15 @@ public:
     /// @param distance   along the ray; may be negative
     /// @param cosine     between the ray's direction and the candidate's geometric normal, of either sign; it may be
     ///                   rough, as only its sign and the steepness of the ray matter
-    [[nodiscard]] bool leave_out(std::uint64_t primitive, T distance, T cosine) const {
+    [[nodiscard]] bool skips(std::uint64_t primitive, T distance, T cosine) const {
         if (!is_here(distance, cosine)) // only a curved surface can be met again, and only from its other side
             return !(distance > T(0)) || (begins_on_surface_ && primitive == left_ && (cosine > T(0)) == along_normal_);
         return primitive == left_ || has_crossed(primitive) == forwards_ || is_beyond_memory(cosine);
     }
 
-    /// Whether `leave_out` may return true; computed without the cosine. An iterative search for the intersection with
+    /// Whether `skips` may return true; computed without the cosine. An iterative search for the intersection with
     /// the shape that the ray leaves may begin at `reach()`: then only grazing rays find their own origin again.
-    [[nodiscard]] bool may_leave_out(std::uint64_t primitive, T distance) const {
+    [[nodiscard]] bool may_skip(std::uint64_t primitive, T distance) const {
         return distance <= reach_ || (begins_on_surface_ && primitive == left_);
     }
     [[nodiscard]] bool was_left(std::uint64_t primitive) const { return begins_on_surface_ && primitive == left_; }

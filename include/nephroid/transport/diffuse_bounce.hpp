@@ -74,7 +74,7 @@ template <class S, Vector3 V, Flux F, class H, class Albedo, class Sampler>
     if (!isfinite(steps.power(photon.flux)))
         return steps.end(Fate::invalid);
     account.lose(Fate::absorbed, arrived - steps.power(photon.flux)); // a rounding
-    ++account.bounces;
+    ++account.diffuse_bounces;
     steps.continue_as(photon, steps.medium());
     return true;
 }

@@ -85,9 +85,9 @@ private:
 
     /// @return  whether the photon may bounce once more
     [[nodiscard]] bool counts_bounce() const {
-        if (reporter_.path().bounces == limits_.bounces)
+        if (reporter_.path().diffuse_bounces == limits_.diffuse_bounces)
             return steps_.end(Fate::terminated);
-        ++reporter_.path().bounces;
+        ++reporter_.path().diffuse_bounces;
         return true;
     }
 

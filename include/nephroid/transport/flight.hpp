@@ -27,7 +27,7 @@ struct Flight {
     std::optional<V> end_normal;       ///< geometric, unit, on the side that the photon arrives from; nothing where it
                                        ///< leaves the scene
     unsigned specular_events;          ///< reflections and refractions before this flight
-    unsigned bounces;                  ///< diffuse surfaces before it
+    unsigned diffuse_bounces;          ///< diffuse surfaces before it
 
     [[nodiscard]] bool leaves_scene() const { return !end_normal.has_value(); }
     /// Where it ends; not finite if it leaves the scene.
@@ -47,8 +47,9 @@ struct Departure {
     template <Flux F, std::size_t N, class Trail>
     [[nodiscard]] Flight<V, F, N> flight(const Photon<V, F, N>& photon, scalar_t<V> distance,
                                          const std::optional<V>& end_normal, const WalkedPath<Trail>& path) const {
-        return {position,   photon.direction,     distance,    photon.flux, photon.differential, normal,
-                end_normal, path.specular_events, path.bounces};
+        return {position,    photon.direction,     distance,
+                photon.flux, photon.differential,  normal,
+                end_normal,  path.specular_events, path.diffuse_bounces};
     }
 };
 /// In place of Departure, if the visitor does not ask for flights.

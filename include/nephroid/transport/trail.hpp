@@ -54,14 +54,14 @@ struct NoTrail {
 template <class Trail = NoTrail>
 struct WalkedPath {
     unsigned specular_events = 0; ///< reflections and refractions since the lamp
-    unsigned bounces = 0;         ///< diffuse surfaces that the photon went on from
+    unsigned diffuse_bounces = 0; ///< diffuse surfaces that the photon went on from
     [[no_unique_address]] Trail trail{};
 
     /// Whether the photon has come straight from the lamp.
-    [[nodiscard]] bool is_direct() const { return specular_events == 0 && bounces == 0; }
+    [[nodiscard]] bool is_direct() const { return specular_events == 0 && diffuse_bounces == 0; }
     /// As what its light arrives where it is.
     [[nodiscard]] Arrival arrival() const {
-        return bounces > 0 ? Arrival::indirect : specular_events > 0 ? Arrival::caustic : Arrival::direct;
+        return diffuse_bounces > 0 ? Arrival::indirect : specular_events > 0 ? Arrival::caustic : Arrival::direct;
     }
 };
 

@@ -11,7 +11,7 @@ struct WalkLimits {
     unsigned specular_events = 64; ///< reflections and refractions before the photon is terminated
     unsigned roulette_after = 8;   ///< specular events before Russian roulette begins: a photon then survives with a
                                    ///< probability of its flux over the emitted one, and gets the emitted flux back
-    unsigned bounces = 64;         ///< diffuse surfaces that a photon goes on from. In a closed scene of albedo 1 light
+    unsigned diffuse_bounces = 64; ///< diffuse surfaces that a photon goes on from. In a closed scene of albedo 1 light
                                    ///< never ends; what is left of it then is cut off here
     /// For visitors that follow all ways (transport/visitor.hpp), without roulette:
     unsigned branches = 64;    ///< additional ways that are followed for one photon

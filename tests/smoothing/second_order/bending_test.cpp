@@ -88,7 +88,7 @@ TEST_CASE("bending: B is that of the derivatives in the footprint's own coordina
         const PathDerivatives map = any_map(draw);
         const PlaneMatrix l = any_shape(draw, 0.5);
         const detail::BendingTerms bend(map, 1, 1e-4);
-        CHECK(bend.turned(l).total() == doctest::Approx(size_by_definition(map, l, 1e-4)).epsilon(1e-9));
+        CHECK(bend.rotated(l).total() == doctest::Approx(size_by_definition(map, l, 1e-4)).epsilon(1e-9));
     }
 }
 
@@ -97,9 +97,9 @@ TEST_CASE("bending: the slope is the gradient of log B") {
     Draws draw(2);
     constexpr double h = 1e-4;
     for (int i = 0; i < 100; ++i) {
-        const detail::BendingTerms bend = detail::BendingTerms(any_map(draw), 1, 1e-4).turned(any_shape(draw, 0.5));
+        const detail::BendingTerms bend = detail::BendingTerms(any_map(draw), 1, 1e-4).rotated(any_shape(draw, 0.5));
         const auto log_size = [&](double p, double q) {
-            return std::log(bend.turned(detail::stretching_matrix({p, q})).total());
+            return std::log(bend.rotated(detail::stretching_matrix({p, q})).total());
         };
         const Plane2 slope = bend.slope();
         CHECK(std::abs(slope.x - (log_size(h, 0) - log_size(-h, 0)) / (2 * h)) < 1e-6);
@@ -134,7 +134,7 @@ TEST_CASE("bending: other emission coordinates give the same footprint on the su
         PathDerivatives other = map;
         other.first = {m.first.x * map.first[0] + m.first.y * map.first[1],
                        m.second.x * map.first[0] + m.second.y * map.first[1]};
-        other.second = turned(map.second, m);
+        other.second = rotated(map.second, m);
         const std::array<Plane2, 2> axes{m.first, m.second};
         for (std::size_t k = 0; k < 4; ++k) { // with k times the second axis
             const Plane2 a = axes[k > 2], b = axes[k > 1], c = axes[k > 0];

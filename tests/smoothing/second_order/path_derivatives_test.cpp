@@ -162,11 +162,11 @@ TEST_CASE("path derivatives: photons on a line are refused and undetermined thir
         CHECK(inner(t, t) == 0);
 }
 
-TEST_CASE("path derivatives: second derivatives in other axes are those of the turned map") {
+TEST_CASE("path derivatives: second derivatives in other axes are those of the rotated map") {
     Draws draw(12);
     const Cubic map(draw);
     const PlaneMatrix axes{{draw.in(-1, 1), draw.in(-1, 1)}, {draw.in(-1, 1), draw.in(-1, 1)}};
-    const auto second = turned(map.at_zero.second, axes);
+    const auto second = rotated(map.at_zero.second, axes);
     // F(axes v): its tangents by v are the map's, combined; H by differences, exact as the third order is left out.
     Cubic quadratic = map;
     quadratic.at_zero.third = {};
@@ -180,7 +180,7 @@ TEST_CASE("path derivatives: second derivatives in other axes are those of the t
     CHECK(distance(second[1], right[1] - zero[1]) <= 32 * epsilon);
     CHECK(distance(second[1], up[0] - zero[0]) <= 32 * epsilon);
     CHECK(distance(second[2], up[1] - zero[1]) <= 32 * epsilon);
-    const auto same = turned(map.at_zero.second, {{1, 0}, {0, 1}});
+    const auto same = rotated(map.at_zero.second, {{1, 0}, {0, 1}});
     for (std::size_t i = 0; i < 3; ++i)
         CHECK(distance(same[i], map.at_zero.second[i]) == 0);
 }

@@ -59,7 +59,7 @@ inline void fit_derivatives(AreaCell& cell, std::size_t index, const AreaCells& 
             for (std::size_t axis = 0; axis < 4; ++axis)
                 away[axis] /= double(grid.counts()[axis]);
             fit.add(cell.frame.step_to(photons[i].frame),
-                    turned(photons[i].tangents, cell.frame.rotation_of(photons[i].frame)), away, rest * rest);
+                    rotated(photons[i].tangents, cell.frame.rotation_of(photons[i].frame)), away, rest * rest);
         }
     });
     double rough = 0;

@@ -56,7 +56,7 @@ public:
             result.shape += weight * shape;
             for (std::size_t axis = 0; axis < 4; ++axis)
                 by_sample[axis] += slope[axis] * shape;
-            const auto second = turned(cell.map.second, rotation);
+            const auto second = rotated(cell.map.second, rotation);
             for (std::size_t i = 0; i < second.size(); ++i)
                 result.second[i] += weight * second[i];
         });

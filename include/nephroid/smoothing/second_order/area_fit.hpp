@@ -27,7 +27,7 @@ struct TangentPair {
 /// A photon's tangents, rotated about its ray so that they are aligned with another photon's.
 ///
 /// @param rotation  `EmissionFrame::rotation_of` this photon, from the other photon's frame
-[[nodiscard]] inline TangentPair turned(const std::array<Double3, 2>& tangents, const PlaneMatrix& rotation) {
+[[nodiscard]] inline TangentPair rotated(const std::array<Double3, 2>& tangents, const PlaneMatrix& rotation) {
     return {rotation.first.x * tangents[0] + rotation.second.x * tangents[1],
             rotation.first.y * tangents[0] + rotation.second.y * tangents[1]};
 }
@@ -38,7 +38,7 @@ struct TangentPair {
 class AreaFit {
 public:
     /// @param at        step from the frame's photon
-    /// @param tangents  aligned with those of the frame (`turned`)
+    /// @param tangents  aligned with those of the frame (`rotated`)
     /// @param sample    emission coordinates, relative to the point at which the derivatives are wanted
     /// @param weight    > 0
     void add(const AreaStep& at, const TangentPair& tangents, const AreaSample& sample, double weight) {

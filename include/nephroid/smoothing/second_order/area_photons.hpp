@@ -98,7 +98,7 @@ private:
             if (frame == nullptr)
                 frame = &photon.frame;
             const AreaSample at = cells.from_middle(cell, samples_[i], false);
-            slopes.add({1, at[0], at[1], at[2], at[3]}, turned(photon.tangents, frame->rotation_of(photon.frame)), 1);
+            slopes.add({1, at[0], at[1], at[2], at[3]}, rotated(photon.tangents, frame->rotation_of(photon.frame)), 1);
             ++count;
         }
         std::array<TangentPair, 5> x;

@@ -92,7 +92,7 @@ public:
     /// The same terms in other coordinates.
     ///
     /// @param axes  takes a vector from the other coordinates to these; its determinant must be 1
-    [[nodiscard]] BendingTerms turned(const PlaneMatrix& axes) const {
+    [[nodiscard]] BendingTerms rotated(const PlaneMatrix& axes) const {
         BendingTerms result = *this;
         const PlaneMatrix back = axes.inverse();
         const auto along2 = [&](Plane2 a, Plane2 b) {
@@ -130,8 +130,8 @@ private:
 [[nodiscard]] inline Plane2 newton_step(const BendingTerms& bend) {
     constexpr double h = 1e-3, longest = 0.5;
     const Plane2 slope = bend.slope();
-    const Plane2 p = (1 / h) * (bend.turned(stretching_matrix({h, 0})).slope() + -1.0 * slope);
-    const Plane2 q = (1 / h) * (bend.turned(stretching_matrix({0, h})).slope() + -1.0 * slope);
+    const Plane2 p = (1 / h) * (bend.rotated(stretching_matrix({h, 0})).slope() + -1.0 * slope);
+    const Plane2 q = (1 / h) * (bend.rotated(stretching_matrix({0, h})).slope() + -1.0 * slope);
     // log B is convex. It has no curvature along a direction in which B decreases without end, so some is added.
     const Symmetric2 curvature{p.x + 0.01, 0.5 * (p.y + q.x), q.y + 0.01};
     const double d = curvature.determinant();
@@ -158,7 +158,7 @@ private:
     const auto shape = [&] { return Principal2(congruent(axes, Symmetric2::isotropic(1))); };
     constexpr int most_steps = 16; // usually 6 suffice; a needle takes 12
     for (int step = 0; step < most_steps; ++step) {
-        const Plane2 x = newton_step(bend.turned(axes));
+        const Plane2 x = newton_step(bend.rotated(axes));
         axes = axes * stretching_matrix(x);
         const Principal2 radii2 = shape();
         if (!(std::hypot(x.x, x.y) > 1e-7) || radii2.larger > 1e6 * radii2.smaller)
@@ -169,7 +169,7 @@ private:
     // In coordinates along the longer axis and across it.
     const double along = std::sqrt(ratio), across = 1 / along;
     const Plane2 normal{-radii2.axis.y, radii2.axis.x};
-    const double total = bend.turned({along * radii2.axis, across * normal}).total();
+    const double total = bend.rotated({along * radii2.axis, across * normal}).total();
     return (0.5 * total) * radii2.with(1 / ratio, ratio);
 }
 

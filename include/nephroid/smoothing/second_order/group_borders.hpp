@@ -23,7 +23,7 @@ namespace nephroid::detail {
 
 /// Whether the group's border lies in a cell or beside it. The border of the domain does not count.
 [[nodiscard]] inline bool has_border_nearby(const GroupCell& cell, const GroupCells& cells) {
-    bool ends = cell.is_next_to_border;
+    bool ends = cell.has_border;
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx)
             if (const auto square = cells.grid().neighbour(cell.square, dx, dy)) {

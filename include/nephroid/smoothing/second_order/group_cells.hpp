@@ -32,9 +32,9 @@ struct GroupCell {
     double scatter = 0;    ///< of the photons' tangents about the map (tangent_scatter)
     Symmetric2 log_q{}, shape{};
     bool has_frame = false;
-    bool is_resolved = false;       ///< whether the photons determined the derivatives
-    bool is_contradicted = false;   ///< whether photons landed elsewhere than the derivatives say
-    bool is_next_to_border = false; ///< whether a border lies within the cell
+    bool is_resolved = false;     ///< whether the photons determined the derivatives
+    bool is_contradicted = false; ///< whether photons landed elsewhere than the derivatives say
+    bool has_border = false;      ///< whether a border lies within the cell
     double border_distance = std::numeric_limits<double>::infinity(); ///< from the middle, in the frame's units;
                                                                       ///< negative beyond the border
     Plane2 border_direction{};                                        ///< unit, or 0 where the border is all around

@@ -45,7 +45,7 @@ public:
         for_each_cell([&](GroupCell& cell) {
             choose_frame(cell, cells_, photons);
             for (const std::uint32_t i : cells_.grid().photons(cell.square))
-                cell.is_next_to_border = cell.is_next_to_border || groups.is_next_to_border(group.photons[i]);
+                cell.has_border = cell.has_border || groups.is_next_to_border(group.photons[i]);
         });
         for_each_cell([&](GroupCell& cell) {
             if (cell.has_frame)
@@ -82,12 +82,12 @@ public:
             const GroupCell& cell = there != nullptr && there->is_resolved ? *there : *here;
             // Tensors are converted from the cell's axes to the photon's.
             const PlaneMatrix axes = frame.axes_of(cell.frame), back = cell.frame.axes_of(frame);
-            const VaryingShape of_cell = shape_in(cell, sample, back).turned(axes);
+            const VaryingShape of_cell = shape_in(cell, sample, back).rotated(axes);
             shape.add(node.weight, of_cell);
             const Plane2 slope{node.slope[0], node.slope[1]};
             shape.along_u += inner(slope, samples_by_step.first) * of_cell.value;
             shape.along_v += inner(slope, samples_by_step.second) * of_cell.value;
-            const auto second = turned(cell.map.second, back);
+            const auto second = rotated(cell.map.second, back);
             for (std::size_t i = 0; i < second.size(); ++i)
                 result.second[i] += node.weight * second[i];
         }

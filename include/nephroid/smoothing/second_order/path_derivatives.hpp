@@ -42,7 +42,7 @@ struct PathDerivatives {
 /// Second derivatives by the coordinates of another frame.
 ///
 /// @param axes  takes coordinates in the other frame to those of `second`
-[[nodiscard]] inline std::array<Double3, 3> turned(const std::array<Double3, 3>& second, const PlaneMatrix& axes) {
+[[nodiscard]] inline std::array<Double3, 3> rotated(const std::array<Double3, 3>& second, const PlaneMatrix& axes) {
     const auto along = [&](Plane2 a, Plane2 b) {
         return (a.x * b.x) * second[0] + ((a.x * b.y + a.y * b.x) * second[1] + (a.y * b.y) * second[2]);
     };

@@ -76,7 +76,7 @@ bool shift_deposit(Deposit<V, F, N>& deposit, const FieldSample& found, double s
     const double kept = distance > longest ? longest / distance : 1;
     bounded = bounded || distance > longest;
     if (second != nullptr) {
-        *second = turned(found.second, {{l00, l10}, {0, l11}});
+        *second = rotated(found.second, {{l00, l10}, {0, l11}});
         for (Double3& h : *second)
             h = along_surface(kept * h, deposit.normal);
     }

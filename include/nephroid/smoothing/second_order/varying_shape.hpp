@@ -22,7 +22,7 @@ struct VaryingShape {
     /// The same tensors in other axes. The derivatives are still by the same u and v.
     ///
     /// @param axes  takes vectors in these axes to the other ones
-    [[nodiscard]] VaryingShape turned(const PlaneMatrix& axes) const {
+    [[nodiscard]] VaryingShape rotated(const PlaneMatrix& axes) const {
         return {congruent(axes, value), congruent(axes, along_u), congruent(axes, along_v)};
     }
 

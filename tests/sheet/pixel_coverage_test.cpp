@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "nephroid/sheet/coverage.hpp"
+#include "nephroid/sheet/pixel_coverage.hpp"
 
 #include <doctest/doctest.h>
 
