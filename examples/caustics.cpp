@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
         print_table(std::cout, *options, rendering.report);
         std::cout << "picture: " << options->output.string() << '\n';
         if (rendering.report.interrupted) {
-            std::cerr << "caustics: interrupted; the picture has " << rendering.report.statistics.emitted.photons
+            std::cerr << "caustics: interrupted; the picture has " << rendering.report.photons_emitted()
                       << " photons\n";
             return interrupted_status();
         }

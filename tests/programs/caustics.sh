@@ -201,6 +201,15 @@ if [ $status -ne 127 ]; then
         fail "Ctrl-C in a room: does not say what is left out: $(cat part.txt)"
 fi
 
+# The photons are those of the layer that was asked for.
+status=0
+timeout --preserve-status -s INT $seconds "$caustics" cornell --layer indirect --emit 1e10 --size 16 --output part.pfm \
+    >part.txt 2>errors.txt || status=$?
+if [ $status -ne 127 ]; then
+    [ $status -eq 130 ] || fail "Ctrl-C in indirect light: status $status, $(cat errors.txt)"
+    grep -q "has [1-9][0-9]* photons" errors.txt || fail "Ctrl-C in indirect light: $(cat errors.txt)"
+fi
+
 # A refusal is one line on stderr, a status that is not zero, and no file.
 refuses() { # words in the message, arguments
     words=$1

@@ -8,7 +8,10 @@
 #include "nephroid/bounce/splat_global.hpp"
 #include "nephroid/transport/account.hpp"
 
+#include <cstdint>
 #include <iosfwd>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace nephroid::examples {
@@ -34,6 +37,10 @@ struct Report {
     std::vector<std::string> notes;  ///< about things that are shown differently from the scene's description
     bool interrupted = false;        ///< the picture has only the photons before the user's interrupt
 
+    /// Photons that lamps emitted, for all layers.
+    [[nodiscard]] std::uint64_t photons_emitted() const {
+        return statistics.emitted.photons + (indirect ? indirect->statistics.emitted.photons : 0);
+    }
     /// Keeps a note, and prints it at once, because the program may fail later.
     void note(const std::string& text);
 };
