@@ -504,8 +504,8 @@ TEST_CASE("relaxation: a flux that is no number is refused by its photon's numbe
     }
 }
 
-// Powers of two scale floating-point numbers without rounding. The sum of 150 squares of 2⁶⁰ leaves float's range of
-// 2¹²⁸: features would hold photons where they are.
+// Powers of two scale floating-point numbers without rounding. 150 squares of 2^60 add up to more than float's 2^128:
+// features would hold photons where they are.
 TEST_CASE("relaxation: the unit of length may be any in which squared distances add up") {
     const auto start = random_floor<glm::vec3>(500, 102);
     for (const auto& options : {RelaxationOptions{}, RelaxationOptions::keeping_density()}) {
