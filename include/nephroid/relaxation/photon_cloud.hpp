@@ -123,8 +123,9 @@ public:
 private:
     void check(std::size_t slot, const char* who) const {
         const auto photon = [&] { return std::string(who) + ": photon " + std::to_string(tree_.index(slot)); };
-        // Two photons may be twice as far apart as each of them is from the origin between them.
-        if (!isfinite(T(4) * length2(position(slot))))
+        // Two photons may be twice as far apart as each of them is from the origin between them, and the feature search
+        // adds up the squared distances of as many as 4,096.
+        if (!isfinite(T(4 * 4096) * length2(position(slot))))
             invalid_argument(photon() + " lies at " + text_of(V(tree_.origin() + position(slot))) +
                              ", so far from the others that squared distances overflow; use a larger unit of length");
         if (!(abs(length2(normals_[slot]) - T(1)) < T(0.01)))

@@ -134,6 +134,23 @@ TEST_CASE("relaxation: k may be chosen by the map") {
     CHECK((*row)[3] == std::to_string(measured.relaxation.estimate_neighbours));
 }
 
+// 20 of 4000 photons lie in a disk of radius 0.035, of which a border hides up to a half. As the border is 4 long, a
+// sixth of the floor lies so near to it.
+TEST_CASE("relaxation: on a floor that ends photons stay and the picture is bright up to its border") {
+    Options options = small("l-shape");
+    options.sequence = SequenceKind::random;
+    ThreadExecutor threads(1);
+    Subject subject = make_subject(options, threads);
+    CHECK(subject.photons.size() == 4000);
+    const BeforeAndAfter measured = before_and_after(subject, options, threads);
+    for (const StoredPhoton& photon : measured.relaxed)
+        CHECK(subject.on_surface(photon.position));
+    const double covered = measured.after.looks[0].errors->relative;
+    CHECK(covered < 0.7 * measured.before.looks[0].errors->relative);
+    subject.on_surface = nullptr;
+    CHECK(covered < 0.8 * before_and_after(subject, options, threads).after.looks[0].errors->relative);
+}
+
 TEST_CASE("relaxation: what cannot be done is refused with a line that names the option") {
     const auto message = [](std::initializer_list<const char*> arguments) -> std::string {
         try {

@@ -3,6 +3,7 @@
 
 #include "common/stopwatch.hpp"
 
+#include "nephroid/gather/coverage.hpp"
 #include "nephroid/gather/estimate_at.hpp"
 #include "nephroid/gather/nearest_photons.hpp"
 
@@ -42,12 +43,15 @@ template <class Estimate>
     return stopwatch.lap();
 }
 
-/// Calls use(estimate) with that of some kernel.
+/// Calls use(estimate) with that of some kernel, over the disk's share on the surface where this ends.
 template <class Use>
-auto with_estimate(const Map& map, std::size_t neighbours, LookKernel kernel, const Use& use) {
-    if (kernel == LookKernel::biweight)
-        return use(NearestPhotons(map, {.count = neighbours}, BiweightKernel{}));
-    return use(NearestPhotons(map, {.count = neighbours}, EpanechnikovKernel{}));
+auto with_estimate(const Subject& subject, const Map& map, std::size_t neighbours, LookKernel kernel, const Use& use) {
+    const auto with_kernel = [&](const auto& k) {
+        if (subject.on_surface)
+            return use(NearestPhotons(map, {.count = neighbours}, k, SampledCoverage{subject.on_surface, k}));
+        return use(NearestPhotons(map, {.count = neighbours}, k));
+    };
+    return kernel == LookKernel::biweight ? with_kernel(BiweightKernel{}) : with_kernel(EpanechnikovKernel{});
 }
 
 template <class Estimate>
@@ -78,7 +82,7 @@ Map map_of(const std::vector<StoredPhoton>& photons) {
 }
 
 Look look(const Subject& subject, const Map& map, std::size_t neighbours, LookKernel kernel, ThreadExecutor& threads) {
-    return with_estimate(map, neighbours, kernel,
+    return with_estimate(subject, map, neighbours, kernel,
                          [&](const auto& estimate) { return look_with(subject, neighbours, estimate, threads); });
 }
 
@@ -91,7 +95,7 @@ BestNeighbours best_neighbours(const Subject& subject, const Map& map, const std
     least.relative = least.rmse = std::numeric_limits<double>::infinity();
     int worse = 0;
     for (std::size_t i = 0; i < neighbours.size() && worse < patience; ++i) {
-        with_estimate(map, neighbours[i], kernel,
+        with_estimate(subject, map, neighbours[i], kernel,
                       [&](const auto& estimate) { return render(subject, estimate, picture, threads); });
         const auto errors = errors_of(subject, picture);
         ++worse;

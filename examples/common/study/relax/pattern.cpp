@@ -14,7 +14,7 @@ namespace nephroid::examples::study::relax {
 
 namespace {
 
-constexpr std::array names = {"uniform", "ellipse-and-bars", "soft-disc", "sines"};
+constexpr std::array names = {"uniform", "ellipse-and-bars", "soft-disc", "sines", "l-shape"};
 
 struct Ellipse {
     double x, y; ///< centre
@@ -83,6 +83,16 @@ constexpr std::array bars = {Bar{0.58, 0.66, 0.15, 0.85}, Bar{0.78, 0.86, 0.15, 
     return 0.5 + 0.4 * std::sin(6 * std::numbers::pi * x) * std::sin(6 * std::numbers::pi * y);
 }
 
+/// The nearest place of the unit square without its upper right quarter.
+[[nodiscard]] std::array<double, 2> onto_l_shape(double x, double y) {
+    x = std::clamp(x, 0.0, 1.0), y = std::clamp(y, 0.0, 1.0);
+    if (x <= 0.5 || y <= 0.5)
+        return {x, y};
+    return x < y ? std::array{0.5, y} : std::array{x, 0.5};
+}
+
+[[nodiscard]] double l_shape(double x, double y) { return onto_l_shape(x, y) == std::array{x, y} ? 1 : 0; }
+
 /// Of the unit square, by its 512² midpoints.
 [[nodiscard]] double mean_of(double (*density)(double, double)) {
     constexpr int side = 512;
@@ -110,6 +120,8 @@ Pattern pattern(const std::string& name) {
         return {soft_disc, mean_of(soft_disc), {}};
     if (name == names[3])
         return {sines, 0.5, {}};
+    if (name == names[4])
+        return {l_shape, 0.75, {}, onto_l_shape};
     return {[](double, double) { return 1.0; }, 1, {}};
 }
 

@@ -42,7 +42,7 @@ namespace {
     const double width = floor.x_max - floor.x_min, height = floor.y_max - floor.y_min;
     const auto is_inside = [&](const glm::vec3& p) {
         const double x = static_cast<double>(p.x), y = static_cast<double>(p.y);
-        return x >= floor.x_min && x < floor.x_max && y >= floor.y_min && y < floor.y_max;
+        return x >= floor.x_min && x <= floor.x_max && y >= floor.y_min && y <= floor.y_max; // with its border's own
     };
     const auto inside = static_cast<double>(
         std::ranges::count_if(photons, [&](const StoredPhoton& photon) { return is_inside(photon.position); }));

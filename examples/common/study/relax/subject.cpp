@@ -71,6 +71,15 @@ Subject pattern_subject(const Options& options) {
                                      .width = options.width,
                                      .height = options.height,
                                      .samples = options.samples});
+    if (pattern.onto_floor) {
+        const auto back = [onto = pattern.onto_floor](const glm::vec3& moved) {
+            const auto [x, y] = onto(static_cast<double>(moved.x), static_cast<double>(moved.y));
+            return glm::vec3(static_cast<float>(x), static_cast<float>(y), 0);
+        };
+        subject.project = [back](std::size_t, const glm::vec3& moved) { return back(moved); };
+        subject.on_surface = [back](const glm::vec3& place) { return back(place) == place; };
+        std::erase_if(subject.vertices, [&](const auto& vertex) { return !subject.on_surface(vertex.position); });
+    }
     subject.truth = irradiance_of(pattern, options.width, options.height);
     subject.edges = pattern.edges;
     if (options.subject == "uniform")
