@@ -3,6 +3,7 @@
 #include "common/caustics/builtin.hpp"
 #include "common/caustics/file_scene.hpp"
 #include "common/caustics/interrupt.hpp"
+#include "common/caustics/layers_file.hpp"
 #include "common/image/file.hpp"
 #include "common/image/pfm.hpp"
 #include "common/image/png.hpp"
@@ -20,6 +21,8 @@ int main(int argc, char** argv) {
             return 0;
         note_interrupts();
         require_writable_image(options->output);
+        if (options->layers)
+            require_writable_image(*options->layers);
         if (options->json)
             require_writable(*options->json);
 
@@ -32,6 +35,8 @@ int main(int argc, char** argv) {
         if (reference)
             rendering.report.errors = errors_against(*reference, rendering.picture);
         write_image(options->output, rendering.picture, rendering.exposure);
+        if (options->layers)
+            write_layers(*options->layers, rendering);
         if (options->json)
             write_file(*options->json, json_text(*options, rendering.report));
         print_table(std::cout, *options, rendering.report);

@@ -39,13 +39,6 @@ struct IlluminationStatistics {
     GlobalSplats global;
 };
 
-namespace detail {
-/// The radius that was chosen is best for one pass by itself. The mean of passes keeps their bias and loses their
-/// noise, so that disks of the passes after it begin with this share of the radius: 0.84 sqrt(Γ(5/3))
-/// (include/nephroid/README.md, "Coverage").
-inline constexpr double radius_of_later_passes = 0.8;
-} // namespace detail
-
 /// Adds a pass to an illumination. **Caustic** light, by mirrors and glass alone, is splatted to second order, with
 /// photons of the lamp aimed at the target. **Indirect** light, by at least one diffuse surface, is splatted as disks,
 /// with photons of the lamp as it is. No path counts twice, and direct light is left to the renderer.
@@ -89,9 +82,8 @@ IlluminationStatistics illuminate(const S& scene, const L& lamp, Illumination<V,
                                  .radius = light.radius() ? light.radius() : pass.global.radius,
                                  .limits = pass.limits};
         statistics.global = splat_global(scene, lamp, light.indirect(), light.distances(), photons, arguments...);
-        std::optional<double> radius = pass.global.radius;
-        if (!radius && statistics.global.is_radius_chosen)
-            radius = detail::radius_of_later_passes * statistics.global.radius;
+        const std::optional<double> radius =
+            pass.global.radius ? pass.global.radius : statistics.global.radius_of_later_passes();
         light.end_indirect_pass(pass.global.count, radius, pass.global.alpha);
     };
     // Indirect light first: what it refuses, it refuses before anything is added.

@@ -296,6 +296,17 @@ TEST_CASE("write_exr: OpenEXR reads back every bit, grey as Y and colour as R, G
     CHECK(same_bits(channel_of("R", 2, 2), expected_of(0, 3, 2, 2)));
     CHECK(same_bits(channel_of("G", 2, 2), expected_of(1, 3, 2, 2)));
     CHECK(same_bits(channel_of("B", 2, 2), expected_of(2, 3, 2, 2)));
+
+    const Samples colour(2, 2, 3, hard_values);
+    write_exr_layers(folder / "a.exr", {{"", colour}, {"glow", colour}, {"glow.variance", Image<float>(2, 2, 0.5f)}});
+    CHECK(same_bits(channel_of("G", 2, 2), expected_of(1, 3, 2, 2)));
+    CHECK(same_bits(channel_of("glow.B", 2, 2), expected_of(2, 3, 2, 2)));
+    CHECK(same_bits(channel_of("glow.variance.Y", 2, 2), std::vector<float>(4, 0.5f)));
+    CHECK_THROWS_AS(write_exr_layers(folder / "b.exr", {}), std::invalid_argument);
+    CHECK(contains(message_of([&] {
+                       write_exr_layers(folder / "b.exr", {{"", colour}, {"wide", Image<float>(3, 2)}});
+                   }),
+                   "layer 'wide' has another size"));
     CHECK(folder.names() == std::vector<std::string>{"a.exr"});
 }
 #else

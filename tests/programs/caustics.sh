@@ -97,6 +97,25 @@ if ! is_sanitized; then
 fi
 # shellcheck disable=SC2086
 "$caustics" ring $few --output m.exr >/dev/null || fail "ring as .exr"
+# Passes until their noise is below an error: two pictures of other photons differ by √2 times as much, for the same
+# footprints. Disks shrink from pass to pass, so the radius is far from each picture's own.
+if ! is_sanitized; then
+    for scene in "ring-disk --first-order" "cornell --layer indirect"; do
+        for seed in 1 2; do
+            # shellcheck disable=SC2086
+            "$caustics" $scene --photons 2000 --size 24 --sequence random --seed $seed --error 15% --output $seed.pfm \
+                --json m.json ${reference:-} >/dev/null
+            reference="--reference 1.pfm"
+        done
+        reference=""
+        noise=$(value m.json noise)
+        at_most "$noise" 0.15 "$scene: the noise is above the error that was asked for"
+        at_most "$(value m.json rel)" "1.3 * 1.4142 * $noise" "$scene: pictures differ by more than their noise"
+        at_most "1.4142 * $noise" "1.3 * $(value m.json rel)" "$scene: pictures differ by less than their noise"
+    done
+fi
+"$caustics" cornell --size 16 --photons 500 --error 90% --output m.png --layers layers.exr >m.txt 2>errors.txt ||
+    grep -q "without OpenEXR" errors.txt || fail "a room's layers: $(cat m.txt)"
 "$caustics" ring --view -.5 .5 -.5 .5 --size 32 --output m.png >/dev/null || fail "a view of negative numbers"
 
 # A file of a glass box alone: sun, ground and camera are assumed, and told before the table. The second argument goes
@@ -245,6 +264,10 @@ refuses "view" ring --view 1 0 0 1
 refuses "fresnel" ring --fresnel on
 refuses "no-such-option" ring --no-such-option
 refuses "emit" ring --emit 0
+for error in 0 -1 100% 2%% nan %; do
+    refuses "error" ring --error $error
+done
+refuses "layers" ring --layers layers.png
 refuses "seed" ring --seed -1
 refuses "samples" ring --samples 0
 refuses "threads" ring --threads -1

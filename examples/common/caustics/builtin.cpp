@@ -67,12 +67,16 @@ Rendering render_builtin(const Options& options) {
     const EyePathMap map(vertices, &FloorVertex::position, upwards);
     report.seconds.map = stopwatch.lap();
 
-    std::vector<float> irradiance(film.pixels());
-    const auto add = [&](std::size_t vertex, float e) {
-        irradiance[vertices[vertex].pixel] += e / static_cast<float>(options.samples);
+    const auto pixels_of = [&](const auto& sums) {
+        std::vector<float> pixels(film.pixels());
+        sums.for_each([&](std::size_t vertex, float e) {
+            pixels[vertices[vertex].pixel] += e / static_cast<float>(options.samples);
+        });
+        return pixels;
     };
-    splat_caustics_timed<float>(builtin.scene, builtin.light, map, walk_limits(film), options, builtin.periodic,
-                                threads, report, add);
+    auto layer = splat_caustics_timed<float>(builtin.scene, builtin.light, map, walk_limits(film), options,
+                                             builtin.periodic, threads, report, pixels_of);
+    std::vector<float>& irradiance = layer.pixels;
     report.seconds.total = total.lap();
 
     const auto exact = exact_picture(film, options.threads);
@@ -81,7 +85,8 @@ Rendering render_builtin(const Options& options) {
     else
         report.note("the exact picture of " + options.scene + " is not known, so no errors are given");
     const double exposure = exposure_of(exact, irradiance);
-    return {Samples{options.width, options.height, 1, std::move(irradiance)}, exposure, std::move(report)};
+    Samples picture(options.width, options.height, 1, std::move(irradiance));
+    return {picture, exposure, std::move(report), {{"caustics", picture, std::move(layer.variance)}}};
 }
 
 } // namespace nephroid::examples

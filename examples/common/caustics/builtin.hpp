@@ -8,11 +8,19 @@
 
 namespace nephroid::examples {
 
+/// A part of a picture's light.
+struct RenderedLayer {
+    std::string name;
+    Samples picture;
+    std::vector<float> variance; ///< of each pixel's mean over the channels; empty if there was a single pass
+};
+
 /// A picture and what is known about it.
 struct Rendering {
     Samples picture;
     double exposure; ///< that shows the picture well as a .png
     Report report;
+    std::vector<RenderedLayer> layers; ///< the picture is their sum
 };
 
 /// Renders a built-in case, without direct light.

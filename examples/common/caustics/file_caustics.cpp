@@ -7,15 +7,11 @@
 
 namespace nephroid::examples {
 
-void add_caustics_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
-                     const Options& options, ThreadExecutor& threads, Report& report, std::vector<glm::vec3>& pixels) {
-    using Vertex = EyeVertex<float, glm::vec3>;
+FileLayer caustic_layer_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
+                           const Options& options, ThreadExecutor& threads, Report& report) {
     const auto lights = photon_lights(lamps, scene);
-    splat_caustics_timed<glm::vec3>(scene, lights, map, WalkLimits{}, options, false, threads, report,
-                                    [&](std::size_t vertex, const glm::vec3& irradiance) {
-                                        const Vertex& v = eye.vertices[vertex];
-                                        pixels[v.pixel] += irradiance * v.weight;
-                                    });
+    return splat_caustics_timed<glm::vec3>(scene, lights, map, WalkLimits{}, options, false, threads, report,
+                                           [&](const auto& sums) { return pixels_of(sums, eye, options); });
 }
 
 } // namespace nephroid::examples

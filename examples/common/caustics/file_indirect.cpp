@@ -6,16 +6,17 @@
 #include "common/unaimed_lights.hpp"
 
 #include "nephroid/bounce/splat_global.hpp"
+#include "nephroid/gather/shrinking_radius.hpp"
 #include "nephroid/vector/glm.hpp"
 
+#include <optional>
 #include <stdexcept>
 #include <variant>
 
 namespace nephroid::examples {
 
-void add_indirect_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
-                     const Options& options, unsigned bounces, ThreadExecutor& threads, Report& report,
-                     std::vector<glm::vec3>& pixels) {
+FileLayer indirect_layer_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
+                            const Options& options, unsigned bounces, ThreadExecutor& threads, Report& report) {
     Stopwatch stopwatch;
     const auto lights = unaimed_lights(lamps, scene);
     if (!(lights.power() > 0))
@@ -29,18 +30,36 @@ void add_indirect_of(const FileScene& scene, const FileLamps& lamps, const FileE
                         return !is_interrupted();
                     }};
     pass.limits.diffuse_bounces = bounces;
-    std::visit(
+    std::optional<ShrinkingRadius> radius; // so that the mean of passes converges, as that of `illuminate` does
+    const auto splat_pass = [&](const auto& sequence) {
+        const GlobalSplats splats = splat_global(scene, lights, sums, distances, pass, sequence, threads);
+        if (const auto first = splats.radius_of_later_passes(); first && !radius)
+            radius.emplace(ShrinkingRadiusOptions{*first});
+        if (radius) {
+            radius->advance();
+            pass.radius = radius->radius();
+        }
+        if (report.indirect)
+            *report.indirect += splats;
+        else
+            report.indirect = splats;
+        return splats.statistics.emitted.photons;
+    };
+    FileLayer layer = std::visit(
         [&](const auto& sequence) {
-            report.indirect = splat_global(scene, lights, sums, distances, pass, sequence, threads);
+            return trace_passes(
+                options.error, count,
+                [&](std::uint64_t first) {
+                    pass.first = first;
+                    return splat_pass(sequence);
+                },
+                [&] { return pixels_of(sums, eye, options); });
         },
         make_sequence(options.sequence, options.seed));
-    const std::uint64_t emitted = report.indirect->statistics.emitted.photons;
-    report.interrupted = report.interrupted || emitted < count;
-    const float share = emitted > 0 ? float(double(count) / double(emitted)) : 0; // fewer stand for all of the light
-    sums.for_each([&](std::size_t vertex, const glm::vec3& irradiance) {
-        pixels[eye.vertices[vertex].pixel] += irradiance * eye.vertices[vertex].weight * share;
-    });
+    report.indirect_passes = layer.report;
+    report.interrupted = report.interrupted || layer.report.is_interrupted;
     report.seconds.indirect = stopwatch.lap();
+    return layer;
 }
 
 } // namespace nephroid::examples

@@ -13,6 +13,7 @@
 
 #include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
+#include "nephroid/receiver/sums.hpp"
 
 namespace nephroid::examples {
 
@@ -20,6 +21,7 @@ using FileScene = Scene<float, glm::vec3>;
 using FileLamps = Lamps<float, glm::vec3>;
 using FileEyePaths = EyePaths<float, glm::vec3>;
 using FileMap = EyePathMap<glm::vec3>;
+using FileLayer = PassedLayer<glm::vec3>;
 
 /// What a picture is made of.
 struct LayeredScene {
@@ -45,17 +47,28 @@ struct LayeredScene {
                                                      const FileEyePaths& eye, const Options& options,
                                                      ThreadExecutor& threads);
 
-/// Adds the caustics to a picture, and notes about them to a report.
+/// The pixels of a film on which the light at eye path vertices is seen.
+[[nodiscard]] inline std::vector<glm::vec3> pixels_of(const Sums<glm::vec3, glm::vec3>& sums, const FileEyePaths& eye,
+                                                      const Options& options) {
+    std::vector<glm::vec3> pixels(options.width * options.height, glm::vec3(0));
+    sums.for_each([&](std::size_t vertex, const glm::vec3& irradiance) {
+        pixels[eye.vertices[vertex].pixel] += irradiance * eye.vertices[vertex].weight;
+    });
+    return pixels;
+}
+
+/// The caustics, and what is said of them in a report.
 ///
 /// @param map  of the vertices of `eye`
-void add_caustics_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
-                     const Options& options, ThreadExecutor& threads, Report& report, std::vector<glm::vec3>& pixels);
+[[nodiscard]] FileLayer caustic_layer_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye,
+                                         const FileMap& map, const Options& options, ThreadExecutor& threads,
+                                         Report& report);
 
-/// Adds the light that at least one diffuse surface has scattered.
+/// The light that at least one diffuse surface has scattered.
 ///
 /// @param bounces  the most, off diffuse surfaces before the one that is seen
-void add_indirect_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye, const FileMap& map,
-                     const Options& options, unsigned bounces, ThreadExecutor& threads, Report& report,
-                     std::vector<glm::vec3>& pixels);
+[[nodiscard]] FileLayer indirect_layer_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye,
+                                          const FileMap& map, const Options& options, unsigned bounces,
+                                          ThreadExecutor& threads, Report& report);
 
 } // namespace nephroid::examples

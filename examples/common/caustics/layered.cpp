@@ -33,9 +33,19 @@ Rendering render_layers(Options& options, const LayeredScene& seen, Report repor
     report.eye_vertices = eye.vertices.size();
     report.seconds.eye_paths = stopwatch.lap();
 
+    std::vector<RenderedLayer> layers;
     Image<glm::vec3> picture(options.width, options.height, glm::vec3(0));
+    const auto add = [&](const std::string& name, FileLayer found) {
+        for (std::size_t i = 0; i < found.pixels.size(); ++i)
+            picture.pixels[i] += found.pixels[i];
+        Image<glm::vec3> image;
+        image.width = options.width;
+        image.height = options.height;
+        image.pixels = std::move(found.pixels);
+        layers.push_back({name, Samples(image), std::move(found.variance)});
+    };
     if (layer == Layer::all || layer == Layer::direct) {
-        picture.pixels = direct_layer_of(scene, lamps, eye, options, threads);
+        add("direct", {direct_layer_of(scene, lamps, eye, options, threads), {}, {}});
         report.seconds.direct = stopwatch.lap();
     }
     if (has_caustics || has_indirect) {
@@ -43,17 +53,17 @@ Rendering render_layers(Options& options, const LayeredScene& seen, Report repor
         const FileMap map(eye.vertices, &Vertex::position, &Vertex::normal);
         report.seconds.map = stopwatch.lap();
         if (has_caustics)
-            add_caustics_of(scene, lamps, eye, map, options, threads, report, picture.pixels);
+            add("caustics", caustic_layer_of(scene, lamps, eye, map, options, threads, report));
         if (has_indirect && report.interrupted)
             report.note("interrupted before the light between diffuse surfaces");
         else if (has_indirect)
-            add_indirect_of(scene, lamps, eye, map, options, bounces, threads, report, picture.pixels);
+            add("indirect", indirect_layer_of(scene, lamps, eye, map, options, bounces, threads, report));
     }
     report.seconds.total = total.lap();
 
     Samples samples(picture);
     const double exposure = room_exposure(samples);
-    return {std::move(samples), exposure, std::move(report)};
+    return {std::move(samples), exposure, std::move(report), std::move(layers)};
 }
 
 } // namespace nephroid::examples

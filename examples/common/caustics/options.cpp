@@ -81,6 +81,17 @@ const Names<bool> reflections = {{"one", true}, {"any", false}};
     return arguments;
 }
 
+/// "2%" or "0.02".
+[[nodiscard]] double share_in(const std::string& option, const std::string& text) {
+    const bool has_sign = !text.empty() && text.back() == '%';
+    const std::string number = has_sign ? text.substr(0, text.size() - 1) : text;
+    char* end = nullptr;
+    const double share = std::strtod(number.c_str(), &end) * (has_sign ? 0.01 : 1);
+    if (number.empty() || *end != '\0' || !(share > 0 && share < 1))
+        throw UsageError(option + ": '" + text + "' is not above 0 and below 100%");
+    return share;
+}
+
 [[nodiscard]] std::string version_text() {
     return "nephroid " + std::to_string(NEPHROID_VERSION_MAJOR) + '.' + std::to_string(NEPHROID_VERSION_MINOR) + '.' +
            std::to_string(NEPHROID_VERSION_PATCH);
@@ -102,6 +113,9 @@ void refuse_contradictions(const Options& options) {
         throw UsageError("--sun, --ground and --environment: are for files; a built-in case has its own");
     if (options.sun && options.ground && !(options.sun->direction[1] < 0))
         throw UsageError("--sun: its light does not go down (y is upwards), so it does not reach the --ground");
+    if (options.layers && options.layers->extension() != ".exr")
+        throw UsageError("--layers: '" + options.layers->string() +
+                         "' does not end in .exr, which has room for layers");
     if (options.view)
         check_view(*options.view);
 }
@@ -133,10 +147,13 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
                        ") or a .glb or .gltf file")
         ->required();
     app.set_version_flag("--version", version_text());
-    std::string photons = "20000", emit, size = "512", seed = "0";
+    std::string photons = "20000", emit, error, size = "512", seed = "0";
     app.add_option("--photons", photons,
                    "Caustic photons wanted [20000]; a pilot pass finds how many to emit. As many are emitted for "
                    "light between diffuse surfaces");
+    app.add_option("--error", error,
+                   "2%, say: passes of so many photons, until the noise of their mean is below that share of each "
+                   "layer's light. The picture so far is written after Ctrl-C");
     app.add_option("--emit", emit, "Photons to emit, instead of --photons");
     std::string smoothing = "auto";
     app.add_option(
@@ -150,7 +167,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
                    "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
     app.add_option("--samples", options.samples, "Eye paths per pixel [1]");
     std::string kernel = "biweight", sequence = "halton", filter = "on", fresnel = "off", reflection = "any";
-    std::string layer = "all", bounces, output, json, reference;
+    std::string layer = "all", bounces, output, layers, json, reference;
     app.add_option("--kernel", kernel, "biweight|epanechnikov|cone|uniform|gaussian [biweight]");
     app.add_option("--sequence", sequence, "halton|sobol|r2|random [halton]");
     app.add_option("--seed", seed, "Of the sequence [0]");
@@ -174,6 +191,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
                    "constant|FILE: light from all around a file's scene, the same, or by a picture of longitude and "
                    "latitude (.hdr, .exr, .pfm or .png)");
     app.add_option("--output", output, "The picture, .exr, .pfm or .png [the scene's name, .png]");
+    app.add_option("--layers", layers,
+                   "An .exr with each layer in channels of its own, and with --error the variance of each pixel");
     app.add_option("--json", json, "A file for the statistics");
     app.add_option("--reference", reference, "A .pfm of the same size to compare with, of many photons, say");
     const std::vector<const char*> arguments = with_albedo(argc, argv);
@@ -186,6 +205,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     if (app.count("--environment") > 0)
         options.environment = environment;
     options.photons = whole_number("--photons", photons, 1);
+    if (!error.empty())
+        options.error = share_in("--error", error);
     if (!emit.empty())
         options.emit = whole_number("--emit", emit, 1);
     options.seed = whole_number("--seed", seed, 0);
@@ -207,6 +228,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     if (!view.empty())
         options.view = {view[0], view[1], view[2], view[3]};
     options.output = !output.empty() ? output : std::filesystem::path(options.scene).stem().string() + ".png";
+    if (!layers.empty())
+        options.layers = layers;
     if (!json.empty())
         options.json = json;
     if (!reference.empty())

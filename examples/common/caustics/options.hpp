@@ -26,6 +26,7 @@ struct Options {
     std::string scene;                     ///< the name of a built-in case or a room, or a .glb or .gltf file
     std::uint64_t photons = 20'000;        ///< caustic photons wanted
     std::optional<std::uint64_t> emit;     ///< photons to emit, instead
+    std::optional<double> error;           ///< of the mean of passes, as a share of it; nothing: one pass
     std::optional<double> smoothing;       ///< s; nothing: chosen for each photon
     bool cross_validated = false;          ///< s is chosen for all photons together, to first order
     bool first_order = false;              ///< photon differential splatting as published
@@ -47,6 +48,7 @@ struct Options {
     std::optional<double> ground;                   ///< the albedo of one that is added to a file's scene
     std::optional<std::string> environment;         ///< around a file's scene: "constant" or a picture's path
     std::filesystem::path output;                   ///< the picture: .exr, .pfm or .png
+    std::optional<std::filesystem::path> layers;    ///< all of them in one .exr
     std::optional<std::filesystem::path> json;      ///< the statistics
     std::optional<std::filesystem::path> reference; ///< a .pfm to compare the picture with
 };

@@ -4,6 +4,7 @@
 
 #include "common/caustic_photons.hpp"
 #include "common/caustics/interrupt.hpp"
+#include "common/caustics/passes.hpp"
 #include "common/caustics/progress.hpp"
 #include "common/caustics/report.hpp"
 #include "common/stopwatch.hpp"
@@ -12,6 +13,8 @@
 #include "nephroid/smoothing/cross_validated_smoothing.hpp"
 
 #include <stdexcept>
+#include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace nephroid::examples {
@@ -50,12 +53,17 @@ void with_policies(const Options& options, const K& kernel, bool repeats, Use&& 
     }
 }
 
-/// Traces and splats the photons that the options ask for and calls sink(vertex, irradiance) for every vertex.
+/// Traces and splats the photons that the options ask for.
 ///
-/// @param repeats  whether the scene repeats over the light's patch
-template <Flux F, class S, Light L, Vector3 V, class Sink>
-void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& map, const WalkLimits& limits,
-                          const Options& options, bool repeats, ThreadExecutor& threads, Report& report, Sink&& sink) {
+/// @param repeats    whether the scene repeats over the light's patch
+/// @param pixels_of  pixels_of(sums) -> the layer's pixels
+/// @return  a PassedLayer
+template <Flux F, class S, Light L, Vector3 V, class PixelsOf>
+auto splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& map, const WalkLimits& limits,
+                          const Options& options, bool repeats, ThreadExecutor& threads, Report& report,
+                          const PixelsOf& pixels_of) {
+    using Pixel = typename std::invoke_result_t<const PixelsOf&, const Sums<V, F>&>::value_type;
+    PassedLayer<Pixel> layer;
     std::visit(
         [&](const auto& kernel, const auto& sequence) {
             if (!(light.power() > 0))
@@ -78,20 +86,25 @@ void splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 if (options.cross_validated)
                     pass.smoothing = cross_validated_smoothing(scene, light, sums, pass, policies, sequence, timing);
                 report.smoothing = options.first_order ? pass.smoothing.value_or(default_smoothing) : pass.smoothing;
-                report.statistics = nephroid::caustics(scene, light, sums, pass, policies, sequence, timing);
+                layer = trace_passes(
+                    options.error, emit,
+                    [&](std::uint64_t first) {
+                        pass.first = first;
+                        const Statistics of_pass =
+                            nephroid::caustics(scene, light, sums, pass, policies, sequence, timing);
+                        report.statistics += of_pass;
+                        return of_pass.emitted.photons;
+                    },
+                    [&] { return pixels_of(std::as_const(sums)); });
                 report.seconds.trace += timing.trace_seconds();
                 report.seconds.fit += timing.fit_seconds();
                 report.seconds.splat += timing.splat_seconds();
-                report.interrupted = report.statistics.emitted.photons < emit;
-                if (!report.interrupted) {
-                    sums.for_each(sink);
-                } else if (report.statistics.emitted.photons > 0) { // fewer photons stand for all of the light
-                    const float share = float(double(emit) / double(report.statistics.emitted.photons));
-                    sums.for_each([&](std::size_t vertex, const F& e) { sink(vertex, F(e * share)); });
-                }
+                report.caustic_passes = layer.report;
+                report.interrupted = report.interrupted || layer.report.is_interrupted;
             });
         },
         make_kernel(options), make_sequence(options.sequence, options.seed));
+    return layer;
 }
 
 } // namespace nephroid::examples

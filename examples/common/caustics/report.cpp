@@ -37,6 +37,19 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
     out << text("  %-20s %16s  %s\n", name.c_str(), value.c_str(), note.c_str());
 }
 
+/// Of a layer that took several.
+void passes_lines(std::ostream& out, const std::string& whose, const PassReport& passes) {
+    if (passes.passes > 1)
+        line(out, whose + "passes", grouped(passes.passes),
+             passes.noise ? text("noise of their mean %.2f%%", 100 * *passes.noise) : "");
+}
+
+[[nodiscard]] std::string passes_json(const PassReport& passes) {
+    return json_object(
+        {{"passes", std::to_string(passes.passes)}, {"noise", passes.noise ? json_number(*passes.noise) : "null"}},
+        "  ");
+}
+
 [[nodiscard]] std::vector<std::pair<std::string, double>> passes(const Timings& seconds) {
     return {{"eye paths", seconds.eye_paths}, {"eye path map", seconds.map},        {"pilot", seconds.pilot},
             {"trace", seconds.trace},         {"footprints", seconds.fit},          {"splat", seconds.splat},
@@ -94,6 +107,7 @@ void print_table(std::ostream& out, const Options& options, const Report& report
     line(out, "photons emitted", grouped(statistics.emitted.photons));
     line(out, "caustic photons", grouped(statistics.caustic_photons()));
     line(out, "rays", grouped(statistics.rays));
+    passes_lines(out, "", report.caustic_passes);
     line(out, "eye path vertices", grouped(report.eye_vertices));
     line(out, "peak memory", text("%.1f MB", peak_memory() * 1e-6));
     if (statistics.bounded_footprints > 0)
@@ -108,6 +122,7 @@ void print_table(std::ostream& out, const Options& options, const Report& report
     if (report.indirect) {
         line(out, "indirect photons", grouped(report.indirect->statistics.emitted.photons));
         line(out, "their arrivals", grouped(report.indirect->statistics[Arrival::indirect].photons));
+        passes_lines(out, "their ", report.indirect_passes);
         line(out, "their disks' radius", text("%.4g", report.indirect->radius));
     }
 
@@ -173,6 +188,10 @@ std::string json_text(const Options& options, const Report& report) {
            {"seconds", json_object(seconds, "  ")},
            {"interrupted", report.interrupted ? "true" : "false"},
            {"notes", json_array(report.notes)}};
+    if (options.error && report.has_caustics)
+        top.push_back({"caustic passes", passes_json(report.caustic_passes)});
+    if (options.error && report.indirect)
+        top.push_back({"indirect passes", passes_json(report.indirect_passes)});
     if (report.indirect)
         top.push_back({"indirect", indirect_json(*report.indirect)});
     if (report.errors)

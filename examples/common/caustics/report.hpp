@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/caustics/options.hpp"
+#include "common/caustics/passes.hpp"
 #include "common/errors.hpp"
 
 #include "nephroid/bounce/splat_global.hpp"
@@ -27,7 +28,8 @@ struct Timings {
 struct Report {
     Statistics statistics;    ///< of caustics
     bool has_caustics = true; ///< otherwise there was no pass for them: not asked for, or nothing is specular
-    std::optional<GlobalSplats> indirect;
+    std::optional<GlobalSplats> indirect; ///< of all passes; the radius is that of the last
+    PassReport caustic_passes, indirect_passes;
     unsigned bounces = 0; ///< off diffuse surfaces before the one that is seen, at most
     Timings seconds;
     std::size_t eye_vertices = 0;

@@ -46,25 +46,35 @@ private:
     std::size_t position_ = 0;
 };
 
-void encode(Imf::OStream& stream, const Samples& image) {
+[[nodiscard]] std::vector<float> top_down(const Samples& image) {
     const std::size_t row = image.width * image.channels;
-    std::vector<float> top_down;
-    top_down.reserve(image.samples.size());
+    std::vector<float> samples;
+    samples.reserve(image.samples.size());
     for (std::size_t y = image.height; y-- > 0;)
-        top_down.insert(top_down.end(), image.samples.data() + y * row, image.samples.data() + (y + 1) * row);
+        samples.insert(samples.end(), image.samples.data() + y * row, image.samples.data() + (y + 1) * row);
+    return samples;
+}
 
-    Imf::Header header(static_cast<int>(image.width), static_cast<int>(image.height));
+void encode(Imf::OStream& stream, const std::vector<ExrLayer>& layers) {
+    const int width = static_cast<int>(layers[0].picture.width), height = static_cast<int>(layers[0].picture.height);
+    Imf::Header header(width, height);
     Imf::FrameBuffer frame;
+    std::vector<std::vector<float>> samples; // until they are written
     const char* const names[] = {"R", "G", "B"};
-    for (std::size_t channel = 0; channel < image.channels; ++channel) {
-        const char* const name = image.channels == 1 ? "Y" : names[channel];
-        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(top_down.data() + channel),
-                                      image.channels * sizeof(float), row * sizeof(float)));
+    for (const ExrLayer& layer : layers) {
+        const std::size_t channels = layer.picture.channels;
+        samples.push_back(top_down(layer.picture));
+        for (std::size_t channel = 0; channel < channels; ++channel) {
+            const std::string name =
+                (layer.name.empty() ? "" : layer.name + ".") + (channels == 1 ? "Y" : names[channel]);
+            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+            frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(samples.back().data() + channel),
+                                          channels * sizeof(float), layer.picture.width * channels * sizeof(float)));
+        }
     }
     Imf::OutputFile file(stream, header);
     file.setFrameBuffer(frame);
-    file.writePixels(static_cast<int>(image.height));
+    file.writePixels(height);
 }
 
 Samples decode(const std::filesystem::path& path) {
@@ -111,15 +121,22 @@ Samples read_exr(const std::filesystem::path& path) {
     }
 }
 
-void write_exr(const std::filesystem::path& path, const Samples& image) {
-    require_writable_samples("write_exr", image);
+void write_exr_layers(const std::filesystem::path& path, const std::vector<ExrLayer>& layers) {
+    if (layers.empty())
+        throw std::invalid_argument("write_exr_layers: there is no picture to write");
     constexpr std::size_t largest = std::numeric_limits<int>::max() / 16; // OpenEXR counts a row's bytes in int
-    if (image.width > largest || image.height > largest)
-        throw std::invalid_argument("write_exr: an image of " + std::to_string(image.width) + " x " +
-                                    std::to_string(image.height) + " is too large for OpenEXR");
+    const Samples& first = layers[0].picture;
+    for (const auto& [name, image] : layers) {
+        require_writable_samples("write_exr", image);
+        if (image.width > largest || image.height > largest)
+            throw std::invalid_argument("write_exr: an image of " + std::to_string(image.width) + " x " +
+                                        std::to_string(image.height) + " is too large for OpenEXR");
+        if (image.width != first.width || image.height != first.height)
+            throw std::invalid_argument("write_exr_layers: layer '" + name + "' has another size than the first one");
+    }
     MemoryStream stream;
     try {
-        encode(stream, image);
+        encode(stream, layers);
     } catch (const std::exception& error) {
         throw std::runtime_error("cannot write '" + path.string() + "': OpenEXR says " + error.what());
     }
@@ -134,7 +151,7 @@ namespace nephroid::examples {
 
 bool has_openexr() { return false; }
 
-void write_exr(const std::filesystem::path& path, const Samples&) { require_openexr(path); }
+void write_exr_layers(const std::filesystem::path& path, const std::vector<ExrLayer>&) { require_openexr(path); }
 
 Samples read_exr(const std::filesystem::path& path) {
     throw std::runtime_error("cannot read '" + path.string() + "': this program was built without OpenEXR");
@@ -145,6 +162,8 @@ Samples read_exr(const std::filesystem::path& path) {
 #endif
 
 namespace nephroid::examples {
+
+void write_exr(const std::filesystem::path& path, const Samples& image) { write_exr_layers(path, {{"", image}}); }
 
 void require_openexr(const std::filesystem::path& path) {
     if (!has_openexr())

@@ -36,6 +36,23 @@ struct GlobalSplats {
     double radius = 0;                   ///< of the disks, world units
     bool is_radius_chosen = true;        ///< false if there was too little light to choose it by: it is then the reach
     std::uint64_t bounded_coverages = 0; ///< vertices of whose disk less than a twentieth lies on the surface
+
+    /// From where the disks of further passes shrink (ShrinkingRadius), after a pass whose radius was not given. What
+    /// was chosen is best for one pass by itself. The mean of passes keeps their bias and loses their noise, so that
+    /// they begin with this share of it: 0.84 sqrt(Γ(5/3)) (include/nephroid/README.md, "Coverage").
+    [[nodiscard]] std::optional<double> radius_of_later_passes() const {
+        return is_radius_chosen ? std::optional(0.8 * radius) : std::nullopt;
+    }
+
+    /// Adds another pass to the accounts. The radius and what it bounded are those of the last one.
+    GlobalSplats& operator+=(const GlobalSplats& other) {
+        statistics += other.statistics;
+        disks += other.disks;
+        radius = other.radius;
+        is_radius_chosen = other.is_radius_chosen;
+        bounded_coverages = other.bounded_coverages;
+        return *this;
+    }
 };
 
 namespace detail {
