@@ -97,25 +97,41 @@ if ! is_sanitized; then
 fi
 # shellcheck disable=SC2086
 "$caustics" ring $few --output m.exr >/dev/null || fail "ring as .exr"
-# Passes until their noise is below an error: two pictures of other photons differ by √2 times as much, for the same
-# footprints. Disks shrink from pass to pass, so the radius is far from each picture's own.
+# Passes until their noise is below an error. Two pictures of other photons differ by √2 times as much. They have 24 x 24
+# pixels, of which footprints make some hundred independent ones: the two are good to a tenth each, and 1.3 is twice that.
 if ! is_sanitized; then
-    for scene in "ring-disk --first-order" "cornell --layer indirect"; do
+    for scene in "ring-disk --first-order --error 5%" "cornell --layer indirect --error 3.5%"; do
+        reference=""
         for seed in 1 2; do
             # shellcheck disable=SC2086
-            "$caustics" $scene --photons 2000 --size 24 --sequence random --seed $seed --error 15% --output $seed.pfm \
-                --json m.json ${reference:-} >/dev/null
+            "$caustics" $scene --photons 2000 --size 24 --sequence random --seed $seed --output $seed.pfm --json m.json \
+                $reference >/dev/null
             reference="--reference 1.pfm"
         done
-        reference=""
         noise=$(value m.json noise)
-        at_most "$noise" 0.15 "$scene: the noise is above the error that was asked for"
+        at_most 8 "$(value m.json passes)" "$scene: the passes are too few to be a test"
+        at_most "$noise" "$(echo "$scene" | sed 's/.*error \(.*\)%/0.01 * \1/')" "$scene: more noise than was asked for"
         at_most "$(value m.json rel)" "1.3 * 1.4142 * $noise" "$scene: pictures differ by more than their noise"
         at_most "1.4142 * $noise" "1.3 * $(value m.json rel)" "$scene: pictures differ by less than their noise"
     done
+    # Fluxes are those of one pass: the lamp's.
+    "$caustics" ring-disk --first-order --photons 2000 --size 24 --output m.pfm --json one.json >/dev/null
+    "$caustics" ring-disk --first-order --photons 2000 --size 24 --error 90% --output m.pfm --json four.json >/dev/null
+    at_most "$(value one.json "flux emitted") - $(value four.json "flux emitted")" 1e-6 "passes add up the lamp's flux"
+fi
+# Ctrl-C ends passes of a single batch too, which are always whole.
+status=0
+timeout --preserve-status -s INT -k 60 2 "$caustics" cornell --layer indirect --emit 500 --size 16 --error 0.001% \
+    --output part.pfm --json part.json >part.txt 2>errors.txt || status=$?
+if [ $status -ne 127 ] && ! is_sanitized; then
+    [ $status -eq 130 ] || fail "Ctrl-C between passes: status $status, $(cat errors.txt)"
+    at_most 2 "$(value part.json passes)" "Ctrl-C between passes: there was one"
 fi
 "$caustics" cornell --size 16 --photons 500 --error 90% --output m.png --layers layers.exr >m.txt 2>errors.txt ||
     grep -q "without OpenEXR" errors.txt || fail "a room's layers: $(cat m.txt)"
+for channel in R direct.R caustics.G indirect.B caustics.variance.Y indirect.variance.Y; do
+    [ ! -f layers.exr ] || grep -q -a "$channel" layers.exr || fail "the layers have no channel $channel"
+done
 "$caustics" ring --view -.5 .5 -.5 .5 --size 32 --output m.png >/dev/null || fail "a view of negative numbers"
 
 # A file of a glass box alone: sun, ground and camera are assumed, and told before the table. The second argument goes
@@ -268,6 +284,8 @@ for error in 0 -1 100% 2%% nan %; do
     refuses "error" ring --error $error
 done
 refuses "layers" ring --layers layers.png
+refuses "layer direct" cornell --layer direct --error 2%
+refuses "error" ring --error ""
 refuses "seed" ring --seed -1
 refuses "samples" ring --samples 0
 refuses "threads" ring --threads -1

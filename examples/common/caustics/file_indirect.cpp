@@ -24,11 +24,7 @@ FileLayer indirect_layer_of(const FileScene& scene, const FileLamps& lamps, cons
     const FreeDistances<glm::vec3> distances(map, scene, {}, threads);
     auto sums = nephroid::sums<glm::vec3>(map);
     const std::uint64_t count = options.emit.value_or(options.photons);
-    Progress progress(count);
-    GlobalPass pass{.count = count, .progress = [&](std::uint64_t done) {
-                        progress.show(done);
-                        return !is_interrupted();
-                    }};
+    GlobalPass pass{.count = count};
     pass.limits.diffuse_bounces = bounces;
     std::optional<ShrinkingRadius> radius; // so that the mean of passes converges, as that of `illuminate` does
     const auto splat_pass = [&](const auto& sequence) {
@@ -50,6 +46,12 @@ FileLayer indirect_layer_of(const FileScene& scene, const FileLamps& lamps, cons
             return trace_passes(
                 options.error, count,
                 [&](std::uint64_t first) {
+                    Progress progress(count);
+                    pass.progress = [&](std::uint64_t done) {
+                        progress.show(done);
+                        return !is_interrupted();
+                    };
+                    sums.clear();
                     pass.first = first;
                     return splat_pass(sequence);
                 },
@@ -57,6 +59,7 @@ FileLayer indirect_layer_of(const FileScene& scene, const FileLamps& lamps, cons
         },
         make_sequence(options.sequence, options.seed));
     report.indirect_passes = layer.report;
+    divide_flux(report.indirect->statistics, layer.report.passes);
     report.interrupted = report.interrupted || layer.report.is_interrupted;
     report.seconds.indirect = stopwatch.lap();
     return layer;

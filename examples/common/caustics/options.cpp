@@ -113,9 +113,11 @@ void refuse_contradictions(const Options& options) {
         throw UsageError("--sun, --ground and --environment: are for files; a built-in case has its own");
     if (options.sun && options.ground && !(options.sun->direction[1] < 0))
         throw UsageError("--sun: its light does not go down (y is upwards), so it does not reach the --ground");
-    if (options.layers && options.layers->extension() != ".exr")
+    if (options.layers && options.layers->extension() != ".exr" && options.layers->extension() != ".EXR")
         throw UsageError("--layers: '" + options.layers->string() +
                          "' does not end in .exr, which has room for layers");
+    if (options.layers && *options.layers == options.output)
+        throw UsageError("--layers: '" + options.layers->string() + "' is also the --output; name another file");
     if (options.view)
         check_view(*options.view);
 }
@@ -133,6 +135,8 @@ void refuse_what_has_no_effect(const CLI::App& app, const Options& options) {
     for (const char* const name : {"--smoothing", "--first-order", "--curved", "--kernel"})
         if (!has_caustics && app.count(name) > 0)
             throw UsageError(std::string(name) + ": is for caustics, and --layer " + layer + " has none");
+    if (options.layer == Layer::direct && options.error)
+        throw UsageError("--error: is for photons, and --layer direct has none");
 }
 
 } // namespace
@@ -205,7 +209,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     if (app.count("--environment") > 0)
         options.environment = environment;
     options.photons = whole_number("--photons", photons, 1);
-    if (!error.empty())
+    if (app.count("--error") > 0)
         options.error = share_in("--error", error);
     if (!emit.empty())
         options.emit = whole_number("--emit", emit, 1);
@@ -228,7 +232,7 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     if (!view.empty())
         options.view = {view[0], view[1], view[2], view[3]};
     options.output = !output.empty() ? output : std::filesystem::path(options.scene).stem().string() + ".png";
-    if (!layers.empty())
+    if (app.count("--layers") > 0)
         options.layers = layers;
     if (!json.empty())
         options.json = json;

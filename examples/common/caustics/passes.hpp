@@ -2,13 +2,17 @@
 /// @file  One pass of a layer of light, or as many as bring the noise of their mean below an error.
 #pragma once
 
+#include "common/caustics/interrupt.hpp"
+
 #include "nephroid/emission/flux.hpp"
 #include "nephroid/receiver/pass_variance.hpp"
+#include "nephroid/transport/account.hpp"
 
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace nephroid::examples {
@@ -16,7 +20,7 @@ namespace nephroid::examples {
 /// The passes of a layer.
 struct PassReport {
     std::uint64_t passes = 0; ///< whole ones
-    /// The root mean square of the pixels' standard errors over their mean; nothing after one pass, or in the dark.
+    /// Of the mean of several passes, over all pixels (RelativeNoise); infinite if all of them are dark.
     std::optional<double> noise;
     bool is_interrupted = false;
 };
@@ -24,57 +28,76 @@ struct PassReport {
 /// A layer of light.
 template <class Pixel>
 struct PassedLayer {
-    std::vector<Pixel> pixels;
+    std::vector<Pixel> pixels;   ///< the mean of the passes
     std::vector<float> variance; ///< of each pixel's power; empty after a single pass
     PassReport report;
 };
 
-/// Traces passes.
+/// Traces passes, one after another. At least four of several, as fewer say too little of how they differ; no more than
+/// four if all of them are dark.
 ///
 /// @param error      of the mean of passes, as a share of it: they go on until the noise is below; nothing: one pass
 /// @param photons    of each pass
 /// @param trace      trace(index of the first photon) -> photons emitted: fewer if the user interrupted
-/// @param pixels_of  pixels_of() -> the sum of all passes in each pixel
+/// @param pixels_of  pixels_of() -> the pixels of the pass that was traced last
 template <class Trace, class PixelsOf>
 [[nodiscard]] auto trace_passes(const std::optional<double>& error, std::uint64_t photons, const Trace& trace,
                                 const PixelsOf& pixels_of) {
-    using Pixel = typename decltype(pixels_of())::value_type;
-    constexpr std::uint64_t least = 4; // fewer say too little of how they differ
+    using Pixel = typename std::invoke_result_t<const PixelsOf&>::value_type;
+    constexpr std::uint64_t least = 4;
     PassedLayer<Pixel> layer;
     PassReport& report = layer.report;
     std::vector<PassMoments> moments;
-    const auto count_pass = [&] {
-        const std::vector<Pixel> pixels = pixels_of();
-        moments.resize(pixels.size());
-        double light = 0, variance = 0;
-        for (std::size_t i = 0; i < pixels.size(); ++i) {
-            moments[i].add(flux_traits<Pixel>::power(pixels[i]), report.passes);
-            light += moments[i].mean(report.passes);
-            variance += moments[i].variance_of_mean(report.passes);
-        }
-        if (report.passes > 1 && light > 0)
-            report.noise = std::sqrt(variance * double(pixels.size())) / light;
+    // Adds a pass, or a part of one, to the mean.
+    const auto add = [&](const std::vector<Pixel>& pass, double part) {
+        if (layer.pixels.empty())
+            layer.pixels.assign(pass.size(), flux_traits<Pixel>::zero());
+        const double passes = double(report.passes) + part;
+        const auto kept = float(double(report.passes) / passes), share = float(1 / passes);
+        for (std::size_t i = 0; i < pass.size(); ++i)
+            layer.pixels[i] = report.passes > 0 ? layer.pixels[i] * kept + pass[i] * share : pass[i] * share;
     };
-    std::uint64_t emitted = 0;
+    const auto count = [&](const std::vector<Pixel>& pass) {
+        moments.resize(pass.size());
+        RelativeNoise noise;
+        for (std::size_t i = 0; i < pass.size(); ++i) {
+            moments[i].add(flux_traits<Pixel>::power(pass[i]), report.passes);
+            noise.add(moments[i].mean, moments[i].variance_of_mean(report.passes));
+        }
+        if (report.passes > 1)
+            report.noise = noise.value();
+    };
     do {
-        const std::uint64_t of_pass = trace(report.passes * photons);
-        emitted += of_pass;
-        report.is_interrupted = of_pass < photons;
-        if (!report.is_interrupted) {
+        const std::uint64_t emitted = trace(report.passes * photons);
+        const std::vector<Pixel> pass = pixels_of();
+        add(pass, emitted > 0 ? double(emitted) / double(photons) : 1); // fewer stand for all of the light
+        // A pass of one batch is whole although the user interrupted it.
+        report.is_interrupted = emitted < photons || (error && is_interrupted());
+        if (emitted == photons) {
             ++report.passes;
             if (error)
-                count_pass();
+                count(pass);
         }
-    } while (error && !report.is_interrupted && (report.passes < least || report.noise.value_or(0) > *error));
-
-    layer.pixels = pixels_of();
-    const float share = emitted > 0 ? float(double(photons) / double(emitted)) : 0; // fewer stand for all of the light
-    for (Pixel& pixel : layer.pixels)
-        pixel = pixel * share;
+    } while (error && !report.is_interrupted &&
+             (report.passes < least || (std::isfinite(*report.noise) && *report.noise > *error)));
     if (report.passes > 1)
-        for (const PassMoments& of_pixel : moments)
-            layer.variance.push_back(float(of_pixel.variance_of_mean(report.passes)));
+        for (const PassMoments& pixel : moments)
+            layer.variance.push_back(float(pixel.variance_of_mean(report.passes)));
     return layer;
+}
+
+/// Makes the fluxes of an account those of one pass; the numbers of photons stay those of all.
+inline void divide_flux(Statistics& account, std::uint64_t passes) {
+    const double share = passes > 1 ? 1 / double(passes) : 1;
+    const auto divide = [share](Tally& tally) {
+        tally.flux *= share;
+        tally.excess *= share;
+    };
+    divide(account.emitted);
+    for (Tally& tally : account.fates)
+        divide(tally);
+    for (Tally& tally : account.received)
+        divide(tally);
 }
 
 } // namespace nephroid::examples

@@ -74,12 +74,7 @@ auto splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 emit = emit_for(scene, light, options.photons, limits, sequence, threads);
             report.seconds.pilot += stopwatch.lap();
 
-            Progress progress(emit);
-            PhotonPass pass{
-                .count = emit, .smoothing = options.smoothing, .limits = limits, .progress = [&](std::uint64_t done) {
-                    progress.show(done);
-                    return !is_interrupted();
-                }};
+            PhotonPass pass{.count = emit, .smoothing = options.smoothing, .limits = limits};
             with_policies(options, kernel, repeats, [&](const auto& policies) {
                 TimingExecutor timing(threads);
                 auto sums = nephroid::sums<F>(map);
@@ -89,6 +84,12 @@ auto splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 layer = trace_passes(
                     options.error, emit,
                     [&](std::uint64_t first) {
+                        Progress progress(emit);
+                        pass.progress = [&](std::uint64_t done) {
+                            progress.show(done);
+                            return !is_interrupted();
+                        };
+                        sums.clear();
                         pass.first = first;
                         const Statistics of_pass =
                             nephroid::caustics(scene, light, sums, pass, policies, sequence, timing);
@@ -100,6 +101,7 @@ auto splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 report.seconds.fit += timing.fit_seconds();
                 report.seconds.splat += timing.splat_seconds();
                 report.caustic_passes = layer.report;
+                divide_flux(report.statistics, layer.report.passes);
                 report.interrupted = report.interrupted || layer.report.is_interrupted;
             });
         },

@@ -41,13 +41,14 @@ void line(std::ostream& out, const std::string& name, const std::string& value, 
 void passes_lines(std::ostream& out, const std::string& whose, const PassReport& passes) {
     if (passes.passes > 1)
         line(out, whose + "passes", grouped(passes.passes),
-             passes.noise ? text("noise of their mean %.2f%%", 100 * *passes.noise) : "");
+             std::isfinite(*passes.noise) ? text("noise of their mean %.2f%%", 100 * *passes.noise)
+                                          : "all dark: give --photons, or --emit, more for each");
 }
 
 [[nodiscard]] std::string passes_json(const PassReport& passes) {
-    return json_object(
-        {{"passes", std::to_string(passes.passes)}, {"noise", passes.noise ? json_number(*passes.noise) : "null"}},
-        "  ");
+    return json_object({{"passes", std::to_string(passes.passes)},
+                        {"noise", passes.noise && std::isfinite(*passes.noise) ? json_number(*passes.noise) : "null"}},
+                       "  ");
 }
 
 [[nodiscard]] std::vector<std::pair<std::string, double>> passes(const Timings& seconds) {

@@ -4,7 +4,6 @@
 
 #include "nephroid/receiver/sums.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -29,27 +28,42 @@ template <class S>
 concept MustTakeVariance = TakesVariance<S> || explain_variance_sink<S>();
 } // namespace detail
 
-/// How the passes at one place differ, a vertex or a pixel, by Welford's update, in which no digits cancel.
+/// The mean of the passes at one place, a vertex or a pixel, and how they differ [Welford 1962].
 struct PassMoments {
-    double sum = 0;     ///< over all passes
-    double squares = 0; ///< of the distances of passes from their mean, summed
+    double mean = 0;
+    double squares = 0; ///< of the distances from the mean, summed over the passes
 
     /// Adds a pass.
     ///
-    /// @param total   over all passes so far, with this one
-    /// @param passes  their number, >= 1
-    void add(double total, std::uint64_t passes) {
-        const double value = total - sum;
-        const double before = passes > 1 ? sum / double(passes - 1) : value;
-        squares += (value - before) * (value - total / double(passes));
-        sum = total;
+    /// @param passes  their number with this one, >= 1
+    void add(double value, std::uint64_t passes) {
+        const double away = value - mean;
+        mean += away / double(passes);
+        squares += away * (value - mean);
     }
-    [[nodiscard]] double mean(std::uint64_t passes) const { return passes > 0 ? sum / double(passes) : 0; }
-    /// The variance of that mean; infinite before the second pass.
+    /// The variance of the mean; infinite before the second pass.
     [[nodiscard]] double variance_of_mean(std::uint64_t passes) const {
-        return passes > 1 ? (std::max)(squares, 0.0) / (double(passes) * double(passes - 1))
-                          : std::numeric_limits<double>::infinity();
+        return passes > 1 ? squares / (double(passes) * double(passes - 1)) : std::numeric_limits<double>::infinity();
     }
+};
+
+/// The root mean square of standard errors over the mean of the light, for as many places as there are: the share of
+/// noise in the `relative_error` of quality/error.hpp.
+class RelativeNoise {
+public:
+    void add(double mean, double variance_of_mean) {
+        light_ += mean;
+        variance_ += variance_of_mean;
+        ++places_;
+    }
+    /// Infinite where no light has arrived.
+    [[nodiscard]] double value() const {
+        return light_ > 0 ? std::sqrt(variance_ * double(places_)) / light_ : std::numeric_limits<double>::infinity();
+    }
+
+private:
+    double light_ = 0, variance_ = 0;
+    std::uint64_t places_ = 0;
 };
 
 /// The variance of the mean of passes at each vertex: what a viewer needs in order to stop, and a denoiser as its
@@ -89,7 +103,7 @@ public:
         const auto leaves = map_->tree().leaves();
         for (std::uint32_t leaf = 0; leaf < leaves.size(); ++leaf)
             for (std::size_t i = 0; i < leaves[leaf].size; ++i)
-                by_slot_[leaves[leaf].first + i].add(flux_traits<F>::power(sums.of_leaf(leaf)[i]), passes_);
+                add(by_slot_[leaves[leaf].first + i], flux_traits<F>::power(sums.of_leaf(leaf)[i]));
     }
 
     [[nodiscard]] std::uint64_t passes() const { return passes_; }
@@ -101,22 +115,16 @@ public:
     void for_each(S&& sink) const {
         for (const TreeLeaf& leaf : map_->tree().leaves())
             for (std::size_t slot = leaf.first; slot < leaf.first + leaf.size; ++slot)
-                sink(std::size_t(map_->tree().index(slot)), by_slot_[slot].mean(passes_),
+                sink(std::size_t(map_->tree().index(slot)), by_slot_[slot].mean,
                      by_slot_[slot].variance_of_mean(passes_));
     }
 
-    /// The root mean square of the standard errors over the mean light at the vertices: the share of noise in the
-    /// `relative_error` of quality/error.hpp. Infinite before the second pass, and where no light has arrived at all:
-    /// bound the number of passes as well.
+    /// The noise of all vertices together (RelativeNoise). Infinite before the second pass, and where no light has
+    /// arrived at all: bound the number of passes as well.
     [[nodiscard]] double relative_error() const {
-        double light = 0, variance = 0;
-        std::size_t vertices = 0;
-        for_each([&](std::size_t, double mean, double of_mean) {
-            light += mean;
-            variance += of_mean;
-            ++vertices;
-        });
-        return light > 0 ? std::sqrt(variance * double(vertices)) / light : std::numeric_limits<double>::infinity();
+        RelativeNoise noise;
+        for_each([&](std::size_t, double mean, double variance) { noise.add(mean, variance); });
+        return noise.value();
     }
 
     /// Begins again, for sums that were cleared.
@@ -126,6 +134,11 @@ public:
     }
 
 private:
+    /// @param total  of all passes. Single precision rounds it: after n passes a pass is good to n 2^-24 of itself
+    void add(PassMoments& moments, double total) const {
+        moments.add(total - moments.mean * double(passes_ - 1), passes_);
+    }
+
     const EyePathMap<V>* map_;
     std::vector<PassMoments> by_slot_;
     std::uint64_t passes_ = 0;
