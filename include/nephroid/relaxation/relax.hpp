@@ -57,6 +57,10 @@ struct Continue {
 ///                  there and writes the photons as they are
 /// Throws std::invalid_argument naming the photon whose position, normal or flux cannot be, or the option.
 ///
+/// Squares of distances between photons must be numbers of the scalar type. Where they would overflow, the map is
+/// refused. Where they lose digits, as in float for maps smaller than 1e-14 units, photons move otherwise, or stay: a
+/// map of one place is allowed, so that this is not told.
+///
 /// Takes some 120 bytes per photon beside the caller's, in single precision.
 template <class Photons, class Access, class E = SerialExecutor, class Project = StayInPlane,
           class Progress = detail::Continue>
