@@ -25,7 +25,8 @@ TEST_CASE("group borders: both sides of a change of path have a border") {
         for (const double u : {left - away, right + away}) {
             const auto here = at(field, map, u, 0.5);
             REQUIRE(here);
-            check_close(here->shape, {between(narrowed(s2, away * width), u * width, width), 0, across}, 1e-6 * s2);
+            check_close(here->shape, {between(narrowed_by_group(s2, away * width), u * width, width), 0, across},
+                        1e-6 * s2);
             CHECK(std::sqrt(inner(here->second[0], here->second[0])) <= 1e-12); // no difference was taken across
         }
     }
@@ -37,7 +38,7 @@ TEST_CASE("group borders: both sides of a change of path have a border") {
     };
     const auto last = at(field_of(bent_beyond), bent_beyond, 0.499, 0.5);
     REQUIRE(last);
-    check_close(last->shape, {narrowed(s2, 0), 0, across}, 1e-6 * s2);
+    check_close(last->shape, {narrowed_by_group(s2, 0), 0, across}, 1e-6 * s2);
     for (const Double3& h : last->second)
         CHECK(std::sqrt(inner(h, h)) <= 1e-12);
 }
@@ -105,9 +106,9 @@ TEST_CASE("group borders: footprints of a small group are bounded on all of its 
             if (std::hypot(u - 0.5, v - 0.45) > 0.02)
                 continue;
             // In the middle both borders are as far: (ρ⁻⁴ + m⁻⁴)^(−1/4) is 0.84 m where the radius ρ is
-            // m or more, and m is found to a cell and a half.
+            // the reach m or more, and borders are found to a cell and a half.
             const double half_width = 0.125 / u0;
-            CHECK(std::sqrt(here->shape.xx) >= 0.84 * (half_width - 1.5 * unit_per_cell * step) - 1);
+            CHECK(std::sqrt(here->shape.xx) >= 0.84 * reach_to_found(half_width - 1.5 * unit_per_cell * step) - 1);
             ++in_the_middle;
         }
         REQUIRE(checked > 200);
@@ -126,7 +127,7 @@ TEST_CASE("group borders: lost photons make a border") {
     const auto here = at(field, affine, 0.5 - away, 0.5);
     REQUIRE(here);
     CHECK(here->shape.xx ==
-          doctest::Approx(between(narrowed(s2, away * width), (0.5 - away) * width, width)).epsilon(1e-6));
+          doctest::Approx(between(narrowed_by_group(s2, away * width), (0.5 - away) * width, width)).epsilon(1e-6));
     CHECK(here->shape.yy == doctest::Approx(between(s2, 0.5 * width, width)).epsilon(1e-6));
     CHECK(!at(field, affine, 0.8, 0.5));
 }
@@ -143,7 +144,7 @@ TEST_CASE("group borders: a hole makes a border for the cells around it") {
     REQUIRE((right && above));
     CHECK(!at(field, affine, 0.5, 0.5));
     const auto beside = [&](double distance, double cells) {
-        return between(narrowed(s2, distance), (0.5 + cells * cell) * width, width);
+        return between(narrowed_by_group(s2, distance), (0.5 + cells * cell) * width, width);
     };
     const double across = between(s2, 0.5 * width, width);
     check_close(right->shape, {beside(step, 1), 0, across}, 1e-6 * s2);

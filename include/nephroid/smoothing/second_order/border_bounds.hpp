@@ -2,6 +2,7 @@
 /// @file  Limits footprints to the borders of their path group and of the light's domain.
 #pragma once
 
+#include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/smoothing/second_order/field_options.hpp"
 #include "nephroid/smoothing/second_order/group_cells.hpp"
 #include "nephroid/smoothing/second_order/varying_shape.hpp"
@@ -20,21 +21,23 @@ public:
 
     /// Bounds a shape by the border of the path group, in the frame of the cell.
     ///
+    /// @param side   of the cell, in u0
     /// @param away   from the middle of the cell to the photon
     /// @param steps  the photon's axes in the cell's frame, as columns
-    void bound_by_group(VaryingShape& shape, const GroupCell& cell, Plane2 away, const PlaneMatrix& steps) const {
+    void bound_by_group(VaryingShape& shape, const GroupCell& cell, double side, Plane2 away,
+                        const PlaneMatrix& steps) const {
         if (!std::isfinite(cell.border_distance))
             return;
         const Plane2 n = cell.border_direction;
         if (!(inner(n, n) > 0)) {
-            const double radius2 = square(reach_to(cell.border_distance).radius);
+            const double radius2 = square(reach_to_found(cell.border_distance, side).radius);
             const Principal2 principal(shape.value);
             shape.value = principal.with((std::min)(principal.larger, radius2), (std::min)(principal.smaller, radius2));
             return;
         }
-        bound_towards(shape, n, cell.border_distance, away, steps);
+        bound_towards(shape, n, cell.border_distance, side, away, steps);
         if (std::isfinite(cell.across_distance))
-            bound_towards(shape, cell.across_direction, cell.across_distance, away, steps);
+            bound_towards(shape, cell.across_direction, cell.across_distance, side, away, steps);
     }
 
     /// Bounds a shape by the borders of the light's domain, in the photon's own frame.
@@ -73,8 +76,10 @@ private:
 
     /// @param n         unit, towards a border, in the frame of the cell
     /// @param distance  of the border from the cell's middle
-    void bound_towards(VaryingShape& shape, Plane2 n, double distance, Plane2 away, const PlaneMatrix& steps) const {
-        const Reach reach = reach_to(distance - inner(n, away));
+    /// @param side      of the cell
+    void bound_towards(VaryingShape& shape, Plane2 n, double distance, double side, Plane2 away,
+                       const PlaneMatrix& steps) const {
+        const Reach reach = reach_to_found(distance - inner(n, away), side);
         shape.bound_along(n, reach.radius,
                           {-reach.by_distance * inner(n, steps.first), -reach.by_distance * inner(n, steps.second)});
     }
@@ -82,6 +87,22 @@ private:
     [[nodiscard]] Reach reach_to(double distance) const {
         const double unit_reach = std::sqrt(scale_);
         return distance > least_ ? Reach{unit_reach * distance, unit_reach} : Reach{unit_reach * least_, 0};
+    }
+
+    /// The reach towards a border that was found from photons, to about a quarter of a cell's side h. The shift follows
+    /// how footprints grow with the distance d, and so it follows errors of the border too. If they reached as far as
+    /// the border everywhere, light would vary by d/(32 h) where it should be even. So S grows with d² up to a
+    /// distance l only, and with l d further away, where light then varies by l/(64 h). Twice the published radius has
+    /// little noise; where cells are larger, as in passes of more photons than the pilot, l is a cell's side.
+    [[nodiscard]] Reach reach_to_found(double distance, double side) const {
+        if (!(distance > least_))
+            return reach_to(distance);
+        const double l = (std::max)(2 * default_smoothing, side);
+        const double near2 = 1 / square(distance), far2 = 1 / square(l); // 1/r⁴ = 1/d⁴ + 1/(l d)²
+        const double radius2 = 1 / std::sqrt(near2 * (near2 + far2)), radius = std::sqrt(radius2);
+        const double by_distance = radius * radius2 * radius2 * near2 / distance * (near2 + 0.5 * far2);
+        const double unit_reach = std::sqrt(scale_);
+        return {unit_reach * radius, unit_reach * by_distance};
     }
 
     double scale_, least_;

@@ -21,6 +21,11 @@ namespace nephroid::detail {
     return norm > 1e-6 ? (1 / norm) * v : Plane2{};
 }
 
+/// The side of a cell in its frame, u0: the root of its area.
+[[nodiscard]] inline double side_of(const GroupCell& cell, const EmissionCells& grid) {
+    return std::sqrt(std::abs(cell.to_frame.determinant()) / double(grid.size()));
+}
+
 /// Whether the group's border lies in a cell or beside it. The border of the domain does not count.
 [[nodiscard]] inline bool has_border_nearby(const GroupCell& cell, const GroupCells& cells) {
     bool ends = cell.has_border;
@@ -37,7 +42,7 @@ namespace nephroid::detail {
 /// are missing. If as many are missing in every direction, the border gets no direction and lies half a cell away.
 inline void mark_border(GroupCell& cell, const EmissionCells& grid, const PathSamples& photons) {
     const auto middle = grid.middle(cell.square);
-    const double side = std::sqrt(std::abs(cell.to_frame.determinant()) / double(grid.size()));
+    const double side = side_of(cell, grid);
     Plane2 sum_of_photons{}, sum_of_squares{};
     double squares = 0;
     std::vector<Plane2> positions;
@@ -69,10 +74,8 @@ inline void mark_border(GroupCell& cell, const EmissionCells& grid, const PathSa
     return from.to_frame(grid.step_between(grid.middle(from.square), grid.middle(to.square)));
 }
 
-/// Finds the group's border for each cell. Borders are passed from cell to cell, as far as footprints reach.
-///
-/// @param largest_radius  of a footprint, in u0: borders further away than this do not matter
-inline void find_borders(GroupCells& cells, const PathSamples& photons, double largest_radius) {
+/// Finds the group's border for each cell. Borders are passed from cell to cell.
+inline void find_borders(GroupCells& cells, const PathSamples& photons) {
     std::vector<std::uint32_t> border(cells.size(), GroupCells::no_cell), pending;
     for (std::uint32_t index = 0; index < cells.size(); ++index)
         if (cells[index].is_resolved && has_border_nearby(cells[index], cells)) {
@@ -90,7 +93,7 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
             const Plane2 away = displacement(other, cells[from], cells.grid());
             const double distance = cells[from].border_distance + std::sqrt(inner(away, away));
             const double known = other.border_distance;
-            if ((std::isfinite(known) && !(distance < known - 1e-9 * std::abs(known))) || distance > largest_radius)
+            if (std::isfinite(known) && !(distance < known - 1e-9 * std::abs(known)))
                 return;
             cells[index].border_distance = distance;
             cells[index].border_direction = unit_or_zero(away);
@@ -113,9 +116,8 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
 /// Finds how far a cell is from the group's border in one direction.
 ///
 /// @param direction  unit, in the cell's frame
-/// @return  infinity beyond `largest_radius`, and towards the border of the domain
-[[nodiscard]] inline double distance_to_border(const GroupCell& cell, const GroupCells& cells, Plane2 direction,
-                                               double largest_radius) {
+/// @return  infinity towards the border of the domain
+[[nodiscard]] inline double distance_to_border(const GroupCell& cell, const GroupCells& cells, Plane2 direction) {
     constexpr double endless = std::numeric_limits<double>::infinity();
     const EmissionCells& grid = cells.grid();
     const auto middle = grid.middle(cell.square);
@@ -126,7 +128,7 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
     if (!(step > 0) || !std::isfinite(step))
         return endless; // the frame is singular here
     const double side = 2 * step;
-    const double furthest = (std::min)(largest_radius + step, 2 * step * double(grid.columns() + grid.rows()));
+    const double furthest = 2 * step * double(grid.columns() + grid.rows());
     const GroupCell* last = &cell;
     for (double at = step; at <= furthest; at += step) {
         std::array<double, 2> sample{middle[0] + at * by_unit.x, middle[1] + at * by_unit.y};
@@ -154,7 +156,7 @@ inline void find_borders(GroupCells& cells, const PathSamples& photons, double l
 
 /// Finds for each cell with a border a second one, in a direction perpendicular to the first. Both bound the footprints
 /// in a corner of the group, and in a group that is narrower than a footprint.
-inline void find_borders_across(GroupCells& cells, double largest_radius) {
+inline void find_borders_across(GroupCells& cells) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
         GroupCell& cell = cells[i];
         if (!cell.is_resolved || !std::isfinite(cell.border_distance) ||
@@ -162,7 +164,7 @@ inline void find_borders_across(GroupCells& cells, double largest_radius) {
             continue;
         for (const double side : {1.0, -1.0}) {
             const Plane2 across{-side * cell.border_direction.y, side * cell.border_direction.x};
-            const double distance = distance_to_border(cell, cells, across, largest_radius);
+            const double distance = distance_to_border(cell, cells, across);
             if (distance < cell.across_distance) {
                 cell.across_distance = distance;
                 cell.across_direction = across;

@@ -56,8 +56,8 @@ public:
                 cells_[i].shape = Symmetric2::isotropic(square(*options_.smoothing));
             return;
         }
-        find_borders(cells_, photons, options_.bounds.largest_radius);
-        find_borders_across(cells_, options_.bounds.largest_radius);
+        find_borders(cells_, photons);
+        find_borders_across(cells_);
         spread_kinks(run);
         for_each_cell([&](GroupCell& cell) { choose_shape(cell); });
         is_contradicted_ = !options_.repeats && are_shapes_contradicted(); // a floor that repeats has jumps of its own
@@ -170,8 +170,8 @@ private:
         VaryingShape shape{cell.shape, {}, {}};
         if (!options_.smoothing) {
             const EmissionCells& grid = cells_.grid();
-            bounds_.bound_by_group(shape, cell, cell.to_frame(grid.step_between(grid.middle(cell.square), sample)),
-                                   steps);
+            bounds_.bound_by_group(shape, cell, side_of(cell, grid),
+                                   cell.to_frame(grid.step_between(grid.middle(cell.square), sample)), steps);
         }
         return shape;
     }
