@@ -113,7 +113,8 @@ TEST_CASE("pass variance: of random values is how far their means lie from the t
 }
 
 // Two pictures of other photons differ by twice the variance. Vertices closer than a disk's radius of 0.1 are alike, so
-// that the six walls have some 6/(π 0.1²) = 190 independent places: their squares' mean is good to √(2/190) = 0.1.
+// that the six walls have some 6/(π 0.1²) = 190 independent places. Their squares' mean is good to √(2/190) = 0.1,
+// of which 3.5 times are allowed.
 TEST_CASE("pass variance: of a room's indirect light is how two pictures of other photons differ") {
     const Room<float> room = furnace<float>();
     const auto lamp = room.glow(0.5f, {0, 1, 2, 3, 4, 5});

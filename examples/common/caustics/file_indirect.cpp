@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "common/caustics/file_layers.hpp"
-#include "common/caustics/interrupt.hpp"
-#include "common/caustics/progress.hpp"
 #include "common/stopwatch.hpp"
 #include "common/unaimed_lights.hpp"
 
+#include "nephroid/bounce/illumination.hpp"
 #include "nephroid/bounce/splat_global.hpp"
-#include "nephroid/gather/shrinking_radius.hpp"
 #include "nephroid/vector/glm.hpp"
 
-#include <optional>
 #include <stdexcept>
+#include <utility>
 #include <variant>
 
 namespace nephroid::examples {
@@ -21,41 +19,29 @@ FileLayer indirect_layer_of(const FileScene& scene, const FileLamps& lamps, cons
     const auto lights = unaimed_lights(lamps, scene);
     if (!(lights.power() > 0))
         throw std::runtime_error("the lights emit nothing: their intensity or emission is zero");
-    const FreeDistances<glm::vec3> distances(map, scene, {}, threads);
-    auto sums = nephroid::sums<glm::vec3>(map);
+    Illumination<glm::vec3, glm::vec3> light(map, scene, {}, threads);
     const std::uint64_t count = options.emit.value_or(options.photons);
     GlobalPass pass{.count = count};
     pass.limits.diffuse_bounces = bounces;
-    std::optional<ShrinkingRadius> radius; // so that the mean of passes converges, as that of `illuminate` does
-    const auto splat_pass = [&](const auto& sequence) {
-        const GlobalSplats splats = splat_global(scene, lights, sums, distances, pass, sequence, threads);
-        if (const auto first = splats.radius_of_later_passes(); first && !radius)
-            radius.emplace(ShrinkingRadiusOptions{*first});
-        if (radius) {
-            radius->advance();
-            pass.radius = radius->radius();
-        }
-        if (report.indirect)
-            *report.indirect += splats;
-        else
-            report.indirect = splats;
-        return splats.statistics.emitted.photons;
-    };
     FileLayer layer = std::visit(
         [&](const auto& sequence) {
             return trace_passes(
                 options.error, count,
-                [&](std::uint64_t first) {
-                    Progress progress(count);
-                    pass.progress = [&](std::uint64_t done) {
-                        progress.show(done);
-                        return !is_interrupted();
-                    };
-                    sums.clear();
+                [&](std::uint64_t first, const auto& progress) {
+                    light.indirect().clear();
                     pass.first = first;
-                    return splat_pass(sequence);
+                    pass.radius = light.radius(); // it shrinks, so that the mean of the passes converges
+                    pass.progress = progress;
+                    const GlobalSplats splats =
+                        splat_global(scene, lights, light.indirect(), light.distances(), pass, sequence, threads);
+                    light.end_indirect_pass(count, splats.radius_of_later_passes(), 2.0 / 3);
+                    if (report.indirect)
+                        *report.indirect += splats;
+                    else
+                        report.indirect = splats;
+                    return splats.statistics.emitted.photons;
                 },
-                [&] { return pixels_of(sums, eye, options); });
+                [&] { return pixels_of(std::as_const(light).indirect(), eye, options); });
         },
         make_sequence(options.sequence, options.seed));
     report.indirect_passes = layer.report;

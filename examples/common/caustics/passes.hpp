@@ -3,6 +3,7 @@
 #pragma once
 
 #include "common/caustics/interrupt.hpp"
+#include "common/caustics/progress.hpp"
 
 #include "nephroid/emission/flux.hpp"
 #include "nephroid/receiver/pass_variance.hpp"
@@ -38,7 +39,8 @@ struct PassedLayer {
 ///
 /// @param error      of the mean of passes, as a share of it: they go on until the noise is below; nothing: one pass
 /// @param photons    of each pass
-/// @param trace      trace(index of the first photon) -> photons emitted: fewer if the user interrupted
+/// @param trace      trace(index of the first photon, progress) -> photons emitted: fewer if the user interrupted. The
+///                   library calls progress(photons so far), which shows them and is false after an interrupt
 /// @param pixels_of  pixels_of() -> the pixels of the pass that was traced last
 template <class Trace, class PixelsOf>
 [[nodiscard]] auto trace_passes(const std::optional<double>& error, std::uint64_t photons, const Trace& trace,
@@ -68,7 +70,11 @@ template <class Trace, class PixelsOf>
             report.noise = noise.value();
     };
     do {
-        const std::uint64_t emitted = trace(report.passes * photons);
+        Progress bar(photons);
+        const std::uint64_t emitted = trace(report.passes * photons, [&bar](std::uint64_t done) {
+            bar.show(done);
+            return !is_interrupted();
+        });
         const std::vector<Pixel> pass = pixels_of();
         add(pass, emitted > 0 ? double(emitted) / double(photons) : 1); // fewer stand for all of the light
         // A pass of one batch is whole although the user interrupted it.

@@ -3,9 +3,7 @@
 #pragma once
 
 #include "common/caustic_photons.hpp"
-#include "common/caustics/interrupt.hpp"
 #include "common/caustics/passes.hpp"
-#include "common/caustics/progress.hpp"
 #include "common/caustics/report.hpp"
 #include "common/stopwatch.hpp"
 
@@ -83,14 +81,10 @@ auto splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 report.smoothing = options.first_order ? pass.smoothing.value_or(default_smoothing) : pass.smoothing;
                 layer = trace_passes(
                     options.error, emit,
-                    [&](std::uint64_t first) {
-                        Progress progress(emit);
-                        pass.progress = [&](std::uint64_t done) {
-                            progress.show(done);
-                            return !is_interrupted();
-                        };
+                    [&](std::uint64_t first, const auto& progress) {
                         sums.clear();
                         pass.first = first;
+                        pass.progress = progress;
                         const Statistics of_pass =
                             nephroid::caustics(scene, light, sums, pass, policies, sequence, timing);
                         report.statistics += of_pass;

@@ -51,7 +51,7 @@ void passes_lines(std::ostream& out, const std::string& whose, const PassReport&
                        "  ");
 }
 
-[[nodiscard]] std::vector<std::pair<std::string, double>> passes(const Timings& seconds) {
+[[nodiscard]] std::vector<std::pair<std::string, double>> phases(const Timings& seconds) {
     return {{"eye paths", seconds.eye_paths}, {"eye path map", seconds.map},        {"pilot", seconds.pilot},
             {"trace", seconds.trace},         {"footprints", seconds.fit},          {"splat", seconds.splat},
             {"direct light", seconds.direct}, {"indirect light", seconds.indirect}, {"other", seconds.other()},
@@ -128,7 +128,7 @@ void print_table(std::ostream& out, const Options& options, const Report& report
     }
 
     out << "seconds\n";
-    for (const auto& [name, seconds] : passes(report.seconds))
+    for (const auto& [name, seconds] : phases(report.seconds))
         if (seconds > 0)
             line(out, name, text("%.3f", seconds),
                  name == "trace" ? text("%.2f M photons/s", double(statistics.emitted.photons) / seconds * 1e-6) : "");
@@ -159,7 +159,7 @@ std::string json_text(const Options& options, const Report& report) {
         fates.push_back({fate_names[i], json_object({{"photons", std::to_string(statistics.fates[i].photons)},
                                                      {"flux", json_number(statistics.fates[i].flux)}},
                                                     "    ")});
-    for (const auto& [name, value] : passes(report.seconds))
+    for (const auto& [name, value] : phases(report.seconds))
         seconds.push_back({name, json_number(value)});
     top = {{"scene", json_string(options.scene)},
            {"layer", json_string(name_in(layer_names(), options.layer))},

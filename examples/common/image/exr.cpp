@@ -127,9 +127,9 @@ void write_exr_layers(const std::filesystem::path& path, const std::vector<ExrLa
     constexpr std::size_t largest = std::numeric_limits<int>::max() / 16; // OpenEXR counts a row's bytes in int
     const Samples& first = layers[0].picture;
     for (const auto& [name, image] : layers) {
-        require_writable_samples("write_exr", image);
+        require_writable_samples("write_exr_layers", image);
         if (image.width > largest || image.height > largest)
-            throw std::invalid_argument("write_exr: an image of " + std::to_string(image.width) + " x " +
+            throw std::invalid_argument("write_exr_layers: an image of " + std::to_string(image.width) + " x " +
                                         std::to_string(image.height) + " is too large for OpenEXR");
         if (image.width != first.width || image.height != first.height)
             throw std::invalid_argument("write_exr_layers: layer '" + name + "' has another size than the first one");

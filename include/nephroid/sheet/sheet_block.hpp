@@ -10,8 +10,8 @@
 #pragma once
 
 #include "nephroid/emission/flux.hpp"
-#include "nephroid/sheet/pixel_coverage.hpp"
 #include "nephroid/sheet/edge_pages.hpp"
+#include "nephroid/sheet/pixel_coverage.hpp"
 #include "nephroid/sheet/receiver_pixels.hpp"
 #include "nephroid/vector/not_unrolled.hpp"
 

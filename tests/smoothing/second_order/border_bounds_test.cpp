@@ -146,8 +146,8 @@ struct TurnedTable {
     }
 };
 
-// The table gets a twentieth of the light, and the pilot has a third of the photons: borders are found to four steps or
-// so, and footprints that reached as far as them had twice the error of those of one size.
+// The table gets a twentieth of the light, and the pilot has a third of the photons. Footprints that reached as far as
+// the borders that were found had an error of 0.036, where those of one size have 0.029.
 TEST_CASE("border bounds: in the middle of a small group light is as even as with footprints of one size") {
     using V = glm::dvec3;
     const TurnedTable scene;

@@ -43,7 +43,7 @@ template <class Estimate>
     return stopwatch.lap();
 }
 
-/// Calls use(estimate) with that of some kernel, over the disk's share on the surface where this ends.
+/// Calls use(estimate) with the estimate of a kernel. On a surface that ends it is divided by the kernel's share there.
 template <class Use>
 auto with_estimate(const Subject& subject, const Map& map, std::size_t neighbours, LookKernel kernel, const Use& use) {
     const auto with_kernel = [&](const auto& k) {

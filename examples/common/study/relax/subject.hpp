@@ -34,8 +34,9 @@ struct Subject {
     std::vector<Edge> edges;                         ///< of known place and height
     std::optional<std::array<double, 4>> evenly_lit; ///< a part of the floor to take the spectrum of
     std::function<glm::vec3(std::size_t photon, const glm::vec3& moved)> project; ///< back onto a curved surface
-    std::function<bool(const glm::vec3&)> on_surface; ///< where it ends within the picture; none: nowhere
-    std::vector<std::string> notes;                   ///< on what is shown otherwise than one might think
+    std::function<bool(const glm::vec3&)>
+        on_surface;                 ///< whether a place lies on it; none if it does not end in the picture
+    std::vector<std::string> notes; ///< on what is shown otherwise than one might think
 };
 
 /// A film's vertices on the floor as a camera's.
