@@ -58,11 +58,9 @@ template <class Map>
     return d2 < 8 * radius2 ? radius2 * d2 / std::hypot(radius2, d2) : radius2;
 }
 
-/// The reach towards a border that was found from photons: (d⁻⁴ + (16 d)⁻²)^(−1/4), for cells below 16 u0.
+/// The reach towards a border that was found from photons: (4⁴ + (16 d)²)^(1/4).
 [[nodiscard]] inline double reach_to_found(double distance) {
-    const double d = (std::max)(distance, SmoothingBounds{}.least_radius);
-    return distance > SmoothingBounds{}.least_radius ? 1 / std::pow(1 / square(square(d)) + 1 / square(16 * d), 0.25)
-                                                     : d;
+    return std::pow(256 + square(16 * (std::max)(distance, 0.0)), 0.25);
 }
 /// The square of a radius beside such a border.
 [[nodiscard]] inline double narrowed_by_group(double radius2, double distance) {

@@ -105,6 +105,7 @@ TEST_CASE("footprint field: photons of a small group have wider footprints") {
 
 TEST_CASE("footprint field: groups side by side have a border between them") {
     auto photons = photons_of(affine, halton(count));
+    const FootprintField whole = field_of(photons);
     for (MapPhoton& photon : photons)
         photon.signature = photon.sample.at[0] < 0.47 ? 1 : 2;
     const FootprintField field = field_of(photons);
@@ -113,10 +114,14 @@ TEST_CASE("footprint field: groups side by side have a border between them") {
         for (const bool left : {false, true}) {
             const MapPhoton photon = photon_at(affine, {0.47 + (left ? -away : away), 0.5}, double(count));
             const auto here = field.at(photon.sample.at, photon.frame, left ? 1 : 2);
-            REQUIRE(here);
-            // No further than to the border, give or take a cell (of 4 by 4 photons).
-            CHECK(std::sqrt(here->shape.xx) <= away / u0 + 4 * std::sqrt(pi<double>));
-            CHECK(here->shape.yy > 1.5 * here->shape.xx);
+            const auto unbounded = whole.at(photon.sample.at, photon.frame, 1);
+            REQUIRE((here && unbounded));
+            // Bounded by the distance d as (4⁴ + (16 d)²)^(1/4), which is found to a cell (of 4 by 4 photons).
+            const double cell = 4 * std::sqrt(pi<double>), distance = away / u0;
+            const auto reach2 = [](double d) { return std::hypot(16, 16 * (std::max)(d, 0.0)); };
+            const double radius2 = 0.5 * here->shape.trace(), free2 = 0.5 * unbounded->shape.trace();
+            CHECK(radius2 <= 1 / std::hypot(1 / reach2(distance + cell), 1 / free2) * 1.01);
+            CHECK(radius2 >= 1 / std::hypot(1 / reach2(distance - cell), 1 / free2) * 0.99);
         }
 }
 

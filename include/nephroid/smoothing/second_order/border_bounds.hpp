@@ -19,25 +19,18 @@ class BorderBounds {
 public:
     explicit BorderBounds(const FieldOptions& options) : scale_(options.scale), least_(options.bounds.least_radius) {}
 
-    /// Bounds a shape by the border of the path group, in the frame of the cell.
+    /// Bounds a shape by the border of the path group, which was found from photons, in the frame of the cell. It is
+    /// bounded alike in all directions: where the border's direction turns from cell to cell, by errors or at corners,
+    /// the long axes of footprints would turn with it, and their shifts follow that.
     ///
-    /// @param side   of the cell, in u0
     /// @param away   from the middle of the cell to the photon
     /// @param steps  the photon's axes in the cell's frame, as columns
-    void bound_by_group(VaryingShape& shape, const GroupCell& cell, double side, Plane2 away,
-                        const PlaneMatrix& steps) const {
+    void bound_by_group(VaryingShape& shape, const GroupCell& cell, Plane2 away, const PlaneMatrix& steps) const {
         if (!std::isfinite(cell.border_distance))
             return;
-        const Plane2 n = cell.border_direction;
-        if (!(inner(n, n) > 0)) {
-            const double radius2 = square(reach_to_found(cell.border_distance, side).radius);
-            const Principal2 principal(shape.value);
-            shape.value = principal.with((std::min)(principal.larger, radius2), (std::min)(principal.smaller, radius2));
-            return;
-        }
-        bound_towards(shape, n, cell.border_distance, side, away, steps);
+        bound_towards(shape, cell.border_direction, cell.border_distance, away, steps);
         if (std::isfinite(cell.across_distance))
-            bound_towards(shape, cell.across_direction, cell.across_distance, side, away, steps);
+            bound_towards(shape, cell.across_direction, cell.across_distance, away, steps);
     }
 
     /// Bounds a shape by the borders of the light's domain, in the photon's own frame.
@@ -74,14 +67,12 @@ private:
         double radius, by_distance;
     };
 
-    /// @param n         unit, towards a border, in the frame of the cell
+    /// @param n         unit, towards a border, in the frame of the cell; 0 for one without a direction
     /// @param distance  of the border from the cell's middle
-    /// @param side      of the cell
-    void bound_towards(VaryingShape& shape, Plane2 n, double distance, double side, Plane2 away,
-                       const PlaneMatrix& steps) const {
-        const Reach reach = reach_to_found(distance - inner(n, away), side);
-        shape.bound_along(n, reach.radius,
-                          {-reach.by_distance * inner(n, steps.first), -reach.by_distance * inner(n, steps.second)});
+    void bound_towards(VaryingShape& shape, Plane2 n, double distance, Plane2 away, const PlaneMatrix& steps) const {
+        const Reach reach = reach_to_found(distance - inner(n, away));
+        shape.bound_size(reach.radius,
+                         {-reach.by_distance * inner(n, steps.first), -reach.by_distance * inner(n, steps.second)});
     }
 
     [[nodiscard]] Reach reach_to(double distance) const {
@@ -89,20 +80,15 @@ private:
         return distance > least_ ? Reach{unit_reach * distance, unit_reach} : Reach{unit_reach * least_, 0};
     }
 
-    /// The reach towards a border that was found from photons, to about a quarter of a cell's side h. The shift follows
-    /// how footprints grow with the distance d, and so it follows errors of the border too. If they reached as far as
-    /// the border everywhere, light would vary by d/(32 h) where it should be even. So S grows with d² up to a
-    /// distance l only, and with l d further away, where light then varies by l/(64 h). Twice the published radius has
-    /// little noise; where cells are larger, as in passes of more photons than the pilot, l is a cell's side.
-    [[nodiscard]] Reach reach_to_found(double distance, double side) const {
-        if (!(distance > least_))
-            return reach_to(distance);
-        const double l = (std::max)(2 * default_smoothing, side);
-        const double near2 = 1 / square(distance), far2 = 1 / square(l); // 1/r⁴ = 1/d⁴ + 1/(l d)²
-        const double radius2 = 1 / std::sqrt(near2 * (near2 + far2)), radius = std::sqrt(radius2);
-        const double by_distance = radius * radius2 * radius2 * near2 / distance * (near2 + 0.5 * far2);
-        const double unit_reach = std::sqrt(scale_);
-        return {unit_reach * radius, unit_reach * by_distance};
+    /// The reach towards a border that was found from photons, to about a quarter of a cell. The shift follows how S
+    /// grows with the distance d, and errors of the border with it. So S grows with l d, where the shift is the same
+    /// for any d. l is twice the published radius, which has little noise. The border itself lies further inwards or
+    /// outwards than it seems, and footprints there have half of the published radius.
+    [[nodiscard]] Reach reach_to_found(double distance) const {
+        constexpr double l = 2 * default_smoothing, least = 0.5 * default_smoothing;
+        const double d = (std::max)(distance, 0.0), radius2 = std::sqrt(square(square(least)) + square(l * d));
+        const double unit_reach = std::sqrt(scale_), radius = std::sqrt(radius2);
+        return {unit_reach * radius, unit_reach * 0.5 * square(l) * d / (radius * radius2)};
     }
 
     double scale_, least_;

@@ -170,8 +170,8 @@ private:
         VaryingShape shape{cell.shape, {}, {}};
         if (!options_.smoothing) {
             const EmissionCells& grid = cells_.grid();
-            bounds_.bound_by_group(shape, cell, side_of(cell, grid),
-                                   cell.to_frame(grid.step_between(grid.middle(cell.square), sample)), steps);
+            bounds_.bound_by_group(shape, cell, cell.to_frame(grid.step_between(grid.middle(cell.square), sample)),
+                                   steps);
         }
         return shape;
     }

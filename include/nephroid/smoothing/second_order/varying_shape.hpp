@@ -26,6 +26,25 @@ struct VaryingShape {
         return {congruent(axes, value), congruent(axes, along_u), congruent(axes, along_v)};
     }
 
+    /// Reduces the size alike in all directions: half the trace of S, the mean squared radius ρ², becomes less than
+    /// m².
+    ///
+    /// S becomes S/√(1 + (ρ/m)⁴), which is smooth in both (see bound_along).
+    /// @param slope  derivatives of the limit m by u and v
+    void bound_size(double limit, Plane2 slope) {
+        const double share = 0.5 * value.trace() / square(limit); // (ρ/m)²
+        if (!(8 * share > 1))
+            return;
+        const double kept = 1 / std::sqrt(1 + square(share));
+        const auto bound = [&](Symmetric2& along, double d_limit) {
+            const double d_share = 0.5 * along.trace() / square(limit) - 2 * share * d_limit / limit;
+            along = kept * along + (-kept * kept * kept * share * d_share) * value;
+        };
+        bound(along_u, slope.x);
+        bound(along_v, slope.y);
+        value = kept * value;
+    }
+
     /// Reduces the radius ρ along a unit direction n, ρ² = n·S n, to less than a limit m, and keeps it across.
     ///
     /// ρ becomes (ρ⁻⁴ + m⁻⁴)^(−1/4), which is smooth in both. With the lesser of the two instead, the shift
