@@ -83,6 +83,10 @@ struct BuiltinCase {
                            ///< footprint over its border needs eye vertices (ghosts) on the other side as well
     Emitters<T, F> emitters = {}; ///< the light again, as surfaces that paths from the floor can hit; empty for
                                   ///< a light without area
+    std::optional<Scene<T, F>> unwrapped = {}; ///< of a periodic case: hits on its floor are where they are, so that
+                                               ///< light sheets do not tear
+
+    [[nodiscard]] const Scene<T, F>& scene_for_sheets() const { return unwrapped ? *unwrapped : scene; }
 };
 
 inline constexpr std::array<std::string_view, 8> builtin_case_names = {
@@ -94,14 +98,16 @@ template <class T, Flux F>
 [[nodiscard]] BuiltinCase<T, F> wave_case(T amplitude, bool fresnel) {
     using Materials = std::vector<Material<F>>;
     const typename SineWave<T>::Options wave{.height = 1, .amplitude = amplitude};
-    Scene<T, F> scene(
-        {{Floor<T>(0, 1), 0}, {SineWave<T>(wave), 1}},
-        Materials{Material<F>::diffuse(grey<F>(1)), Material<F>::dielectric(1.33, fresnel, Follow::refraction)});
+    const auto over = [&](const Floor<T>& floor) {
+        return Scene<T, F>(
+            {{floor, 0}, {SineWave<T>(wave), 1}},
+            Materials{Material<F>::diffuse(grey<F>(1)), Material<F>::dielectric(1.33, fresnel, Follow::refraction)});
+    };
     // Over the unit square, above the crests.
     const DirectionalLight<Vec3<T>, F> sun({.direction = {0, 0, -1},
                                             .irradiance = grey<F>(1),
                                             .patch = Parallelogram<Vec3<T>>{{0, 0, T(1.25)}, {1, 0, 0}, {0, 1, 0}}});
-    return {std::move(scene), CaseLight<T, F>({sun}), {0, 1, 0, 1}, true};
+    return {over(Floor<T>(0, 1)), CaseLight<T, F>({sun}), {0, 1, 0, 1}, true, {}, over(Floor<T>(0))};
 }
 
 /// The inner side of a half cylinder on the floor, a perfect mirror.

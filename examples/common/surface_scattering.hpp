@@ -7,6 +7,7 @@
 
 #include "nephroid/transport/media.hpp"
 #include "nephroid/transport/scattering.hpp"
+#include "nephroid/transport/ways.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -91,6 +92,40 @@ public:
         return refracted(hit, at, T(1));
     }
 
+    /// All ways that light takes at a surface, each with its share. Nothing is drawn by chance, so that light sheets
+    /// can compare the paths of neighbouring photons.
+    ///
+    /// @param direction  of the photon's flight, unit
+    /// @param through    the media that the photon arrives through
+    [[nodiscard]] Ways<Bounce<T, F>, 4> scatter_all(const Hit<T>& hit, const Vec3<T>& direction,
+                                                    const Medium& through = Medium{}) const {
+        const Material<F>& m = material(hit);
+        if (m.is_mixture() || m.surface == Surface::window)
+            return all_of_mixture(m, hit, direction, through);
+        switch (m.surface) {
+        case Surface::diffuse:
+            return scattered(hit);
+        case Surface::mirror:
+        case Surface::conductor:
+            return Bounce<T, F>{Event::reflect, reflectance(m, hit, direction)};
+        case Surface::dielectric:
+        case Surface::window:
+            break;
+        case Surface::black:
+            return {};
+        }
+        const Interface<T> at = interface(m, hit, direction, through);
+        if (!at.is_real)
+            return Bounce<T, F>{Event::pass, grey<F>(1), T(1), at.beyond};
+        const T reflected = reflectance(m, at);
+        Ways<Bounce<T, F>, 4> ways;
+        if (reflected < T(1))
+            ways.add(refracted(hit, at, T(1) - reflected));
+        if (reflected > T(0) && m.follow != Follow::refraction)
+            ways.add({Event::reflect, grey<F>(double(reflected))});
+        return ways;
+    }
+
     /// The shares of the light that meets a surface. The rest is scattered diffusely or absorbed.
     struct Shares {
         T missed;    ///< passes straight through the part that the surface does not cover
@@ -152,6 +187,38 @@ public:
     }
 
 private:
+    /// All ways at a mixture. Light that its diffuse part receives ends there if it has other ways as well.
+    [[nodiscard]] Ways<Bounce<T, F>, 4> all_of_mixture(const Material<F>& m, const Hit<T>& hit,
+                                                       const Vec3<T>& direction, const Medium& through) const {
+        const Shares share = shares(m, hit, direction, through);
+        const T covered = T(1) - share.missed;
+        Ways<Bounce<T, F>, 4> ways;
+        const auto add = [&](const Bounce<T, F>& way, T part) {
+            if (part > T(0))
+                ways.add({way.event, way.weight * grey<F>(double(part)), way.eta, way.medium});
+        };
+        const auto add_diffuse = [&](T part) {
+            if (m.is_diffuse())
+                add(part < T(1) ? Bounce<T, F>{Event::deposit, grey<F>(1)} : scattered(hit), part);
+        };
+        add({Event::refract, grey<F>(1), T(1), through}, share.missed);
+        if (m.surface == Surface::mirror || m.surface == Surface::conductor) {
+            add({Event::reflect, reflectance(m, hit, direction)}, covered);
+        } else if (!m.passes_light()) {
+            add_diffuse(covered);
+        } else if (const Interface<T> at = interface(m, hit, direction, through); !at.is_real) {
+            add({Event::pass, grey<F>(1), T(1), at.beyond}, covered);
+        } else {
+            const T rest = covered - share.reflected, passed = m.is_diffuse() ? share.passed : rest;
+            add(m.surface == Surface::window ? Bounce<T, F>{Event::refract, color(hit), T(1), through}
+                                             : refracted(hit, at, T(1)),
+                passed);
+            add({Event::reflect, grey<F>(1)}, share.reflected);
+            add_diffuse(rest - passed);
+        }
+        return ways;
+    }
+
     /// Chooses one of a mixture's ways in proportion to its share, so that its weight is 1.
     ///
     /// @param number  chooses the way, 0 to 1

@@ -26,6 +26,17 @@ for scene in wave-focused wave-prefocal ring ring-zoom ball ball-point; do
     at_most "($emitted - $accounted) / $emitted" 1e-5 "$scene: the account"
 done
 
+# Light sheets: far nearer to the exact pictures with as few photons, and the account balances as well.
+for scene in wave-focused ring; do
+    "$caustics" $scene --method sheets --photons 2000 --size 64 --output m.png --json m.json >m.txt
+    at_most "$(value m.json rel)" 0.1 "$scene, sheets: rel"
+    grep -q 'light sheets' m.txt || fail "$scene: no light sheets"
+    at_most "($(value m.json 'flux emitted') - $(value m.json 'flux accounted') - $(value m.json 'flux unresolved'))" \
+        1e-5 "$scene, sheets: the account"
+done
+if "$caustics" ring --method sheets --smoothing 3 >/dev/null 2>errors.txt; then fail "sheets have no smoothing"; fi
+grep -q -- '--smoothing: is for splats' errors.txt || fail "$(cat errors.txt)"
+
 "$caustics" --version | grep -q -x 'nephroid [0-9]*\.[0-9]*\.[0-9]*' || fail "--version: no version"
 
 at_least() { # value, bound, what

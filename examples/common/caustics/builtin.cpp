@@ -3,6 +3,7 @@
 
 #include "common/builtin_film.hpp"
 #include "common/caustics/render.hpp"
+#include "common/caustics/render_sheets.hpp"
 
 #include "nephroid/quality/exposure.hpp"
 
@@ -24,6 +25,8 @@ using Case = BuiltinCase<float, float>;
 /// The distance beyond a periodic floor's border up to which there are ghosts: at least an eighth of the period, so
 /// that all but very smooth pictures have the same map.
 [[nodiscard]] double ghosts_of(const BuiltinFilm& film, const Options& options) {
+    if (options.method == Method::sheets)
+        return 0.25; // light moves less than that from its place in the lamp's patch
     const double emitted = double(options.emit.value_or(options.photons));
     const double largest =
         options.first_order ? default_smoothing : bounds_for(SmoothingBounds{}, emitted).largest_radius;
@@ -64,7 +67,11 @@ Rendering render_builtin(const Options& options) {
         floor_vertices(film, builtin.periodic ? std::optional(ghosts_of(film, options)) : std::nullopt);
     report.eye_vertices = vertices.size();
     report.seconds.eye_paths = stopwatch.lap();
-    const EyePathMap map(vertices, &FloorVertex::position, upwards);
+    const auto footprint = [pixel = footprint_of(film)](const FloorVertex&) { return pixel; };
+    const bool are_sheets = options.method == Method::sheets;
+    const EyePathMap<glm::vec3> map = are_sheets
+                                          ? EyePathMap<glm::vec3>(vertices, &FloorVertex::position, upwards, footprint)
+                                          : EyePathMap<glm::vec3>(vertices, &FloorVertex::position, upwards);
     report.seconds.map = stopwatch.lap();
 
     const auto pixels_of = [&](const auto& sums) {
@@ -74,8 +81,10 @@ Rendering render_builtin(const Options& options) {
         });
         return pixels;
     };
-    auto layer = splat_caustics_timed<float>(builtin.scene, builtin.light, map, walk_limits(film), options,
-                                             builtin.periodic, threads, report, pixels_of);
+    auto layer = are_sheets ? draw_sheets_timed<float>(builtin.scene_for_sheets(), builtin.light, map,
+                                                       walk_limits(film), options, threads, report, pixels_of)
+                            : splat_caustics_timed<float>(builtin.scene, builtin.light, map, walk_limits(film), options,
+                                                          builtin.periodic, threads, report, pixels_of);
     std::vector<float>& irradiance = layer.pixels;
     report.seconds.total = total.lap();
 

@@ -64,6 +64,13 @@ struct LayeredScene {
                                          const FileMap& map, const Options& options, ThreadExecutor& threads,
                                          Report& report);
 
+/// The same, drawn as light sheets.
+///
+/// @param map  of the vertices of `eye`, with their footprints
+[[nodiscard]] FileLayer sheet_layer_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye,
+                                       const FileMap& map, const Options& options, ThreadExecutor& threads,
+                                       Report& report);
+
 /// The light that at least one diffuse surface has scattered.
 ///
 /// @param bounces  the most, off diffuse surfaces before the one that is seen

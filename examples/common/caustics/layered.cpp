@@ -50,10 +50,13 @@ Rendering render_layers(Options& options, const LayeredScene& seen, Report repor
     }
     if (has_caustics || has_indirect) {
         using Vertex = EyeVertex<float, glm::vec3>;
-        const FileMap map(eye.vertices, &Vertex::position, &Vertex::normal);
+        const bool are_sheets = has_caustics && options.method == Method::sheets;
+        const FileMap map = are_sheets ? FileMap(eye.vertices, &Vertex::position, &Vertex::normal, &Vertex::footprint)
+                                       : FileMap(eye.vertices, &Vertex::position, &Vertex::normal);
         report.seconds.map = stopwatch.lap();
         if (has_caustics)
-            add("caustics", caustic_layer_of(scene, lamps, eye, map, options, threads, report));
+            add("caustics", are_sheets ? sheet_layer_of(scene, lamps, eye, map, options, threads, report)
+                                       : caustic_layer_of(scene, lamps, eye, map, options, threads, report));
         if (has_indirect && report.interrupted)
             report.note("interrupted before the light between diffuse surfaces");
         else if (has_indirect)

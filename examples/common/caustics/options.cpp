@@ -18,6 +18,8 @@ namespace nephroid::examples {
 
 namespace {
 
+const Names<Method> methods = {
+    {"splats", Method::splats}, {"sheets", Method::sheets}, {"published", Method::published}};
 const Names<KernelKind> kernels = {{"biweight", KernelKind::biweight},
                                    {"epanechnikov", KernelKind::epanechnikov},
                                    {"cone", KernelKind::cone},
@@ -122,6 +124,14 @@ void refuse_contradictions(const Options& options) {
         check_view(*options.view);
 }
 
+/// Options of splats, which sheets would ignore.
+void refuse_what_sheets_ignore(const CLI::App& app) {
+    for (const char* const name :
+         {"--smoothing", "--first-order", "--curved", "--kernel", "--sequence", "--seed", "--pixel-filter"})
+        if (app.count(name) > 0)
+            throw UsageError(std::string(name) + ": is for splats, and --method sheets needs none of it");
+}
+
 /// Options that the layer would ignore.
 void refuse_what_has_no_effect(const CLI::App& app, const Options& options) {
     const std::string layer = name_in(layer_names(), options.layer);
@@ -132,7 +142,7 @@ void refuse_what_has_no_effect(const CLI::App& app, const Options& options) {
                          " has no light between diffuse surfaces; leave one of them out");
     if (options.layer == Layer::indirect && options.bounces == 0u)
         throw UsageError("--bounces: without any, --layer indirect has no light");
-    for (const char* const name : {"--smoothing", "--first-order", "--curved", "--kernel"})
+    for (const char* const name : {"--method", "--smoothing", "--first-order", "--curved", "--kernel"})
         if (!has_caustics && app.count(name) > 0)
             throw UsageError(std::string(name) + ": is for caustics, and --layer " + layer + " has none");
     if (options.layer == Layer::direct && options.error)
@@ -140,6 +150,8 @@ void refuse_what_has_no_effect(const CLI::App& app, const Options& options) {
 }
 
 } // namespace
+
+const char* name_of(Method method) { return name_in(methods, method); }
 
 const char* name_of(KernelKind kernel) { return name_in(kernels, kernel); }
 
@@ -159,13 +171,15 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
                    "2%, say: passes of so many photons, until the noise of their mean is below that share of each "
                    "layer's light. The picture so far is written after Ctrl-C");
     app.add_option("--emit", emit, "Photons to emit, instead of --photons");
-    std::string smoothing = "auto";
+    std::string method = "splats", smoothing = "auto";
+    app.add_option("--method", method,
+                   "splats|sheets|published: splats to second order; patches of light between photons, and splats "
+                   "where light lies on none; splats where photons land, as Frisvad et al. 2014 do [splats]");
     app.add_option(
         "--smoothing", smoothing,
         "auto, or s: the footprints cover the light's domain s^2 times [auto; 8 with --first-order], or with "
         "--first-order cross-validated: the s at which parts of the photons agree best");
-    app.add_flag("--first-order", options.first_order,
-                 "Splat photons where they land, as Frisvad et al. 2014 do; else where their bias cancels");
+    app.add_flag("--first-order", options.first_order, "The same as --method published");
     app.add_flag("--curved", options.curved, "Splat in pieces where the light bends: for few photons on sharp folds");
     app.add_option("--size", size,
                    "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
@@ -221,6 +235,9 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     options.cross_validated = smoothing == "cross-validated";
     if (smoothing != "auto" && !options.cross_validated)
         options.smoothing = smoothing_in(smoothing);
+    options.method = chosen("--method", method, methods);
+    if (options.method == Method::published)
+        options.first_order = true;
     options.kernel = chosen("--kernel", kernel, kernels);
     options.sequence = chosen("--sequence", sequence, sequence_names());
     options.pixel_filter = chosen("--pixel-filter", filter, switches);
@@ -238,6 +255,10 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
         options.json = json;
     if (!reference.empty())
         options.reference = reference;
+    if (options.method == Method::sheets)
+        refuse_what_sheets_ignore(app);
+    else if (options.first_order && app.count("--method") > 0 && options.method == Method::splats)
+        throw UsageError("--first-order: is --method published; leave --method splats out");
     refuse_contradictions(options);
     refuse_what_has_no_effect(app, options);
     return options;

@@ -14,6 +14,13 @@
 
 namespace nephroid::examples {
 
+/// How light on its way from mirrors and glass is drawn.
+enum class Method {
+    splats,    ///< to second order
+    sheets,    ///< patches of light between neighbouring photons, and splats where light lies on none
+    published, ///< splats where photons land
+};
+
 enum class KernelKind { biweight, epanechnikov, cone, uniform, gaussian };
 
 /// A sun that is added to a file's scene.
@@ -29,6 +36,7 @@ struct Options {
     std::optional<double> error;           ///< of the mean of passes, as a share of it; nothing: one pass
     std::optional<double> smoothing;       ///< s; nothing: chosen for each photon
     bool cross_validated = false;          ///< s is chosen for all photons together, to first order
+    Method method = Method::splats;        ///< that draws the caustics
     bool first_order = false;              ///< photon differential splatting as published
     bool curved = false;                   ///< footprints in pieces that bend as the light does
     std::size_t width = 512, height = 512; ///< pixels
@@ -58,6 +66,7 @@ struct Options {
 /// Throws UsageError.
 [[nodiscard]] std::optional<Options> read_options(int argc, const char* const* argv);
 
+[[nodiscard]] const char* name_of(Method method);
 [[nodiscard]] const char* name_of(KernelKind kernel);
 
 } // namespace nephroid::examples

@@ -5,7 +5,9 @@
 
 #include "nephroid/pass/diagnose.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <utility>
 #include <vector>
@@ -86,6 +88,45 @@ void passes_lines(std::ostream& out, const std::string& whose, const PassReport&
     return sentences;
 }
 
+[[nodiscard]] std::string splats_text(const Options& options) {
+    const std::string order = options.first_order ? "first order, " : options.curved ? "curved, " : "";
+    return order + name_of(options.sequence) + ", " + name_of(options.kernel) +
+           (options.pixel_filter ? "" : ", no pixel filter");
+}
+
+/// The light that is not counted in the fates, of one pass.
+[[nodiscard]] double unresolved_flux(const Report& report) {
+    const auto passes = double((std::max)(report.caustic_passes.passes, std::uint64_t(1)));
+    return report.sheets ? report.sheets->unresolved / passes : 0;
+}
+
+/// Flux as a share of what was emitted in all passes.
+[[nodiscard]] std::string share_text(double flux, const Report& report) {
+    const auto passes = double((std::max)(report.caustic_passes.passes, std::uint64_t(1)));
+    return text("%.3f%%", 100 * flux / (passes * report.statistics.emitted.flux));
+}
+
+void sheet_lines(std::ostream& out, const Report& report) {
+    const SheetAccount& account = report.sheets->account;
+    line(out, "cells drawn", grouped(account.cells));
+    line(out, "cells with an end", grouped(account.cut_cells), share_text(account.cut.flux, report) + " of the light");
+    line(out, "parts splatted", grouped(account.broken_tiles),
+         share_text(account.handed_over.flux, report) + " of the light, on no sheet");
+}
+
+[[nodiscard]] std::string sheets_json(const SheetReport& sheets) {
+    const SheetAccount& account = sheets.account;
+    return json_object({{"nodes", std::to_string(account.nodes)},
+                        {"cells", std::to_string(account.cells)},
+                        {"cut cells", std::to_string(account.cut_cells)},
+                        {"flux in cut cells", json_number(account.cut.flux)},
+                        {"broken parts", std::to_string(account.broken_tiles)},
+                        {"flux splatted", json_number(account.handed_over.flux)},
+                        {"flux unresolved", json_number(sheets.unresolved)},
+                        {"photons splatted", std::to_string(sheets.splats.emitted.photons)}},
+                       "  ");
+}
+
 } // namespace
 
 void Report::note(const std::string& text) {
@@ -96,11 +137,7 @@ void Report::note(const std::string& text) {
 void print_table(std::ostream& out, const Options& options, const Report& report) {
     const Statistics& statistics = report.statistics;
     out << "caustics " << options.scene << (report.smoothing ? text(", s = %g, ", *report.smoothing) : ", ")
-        << (options.first_order ? "first order, "
-            : options.curved    ? "curved, "
-                                : "")
-        << name_of(options.sequence) << ", " << name_of(options.kernel)
-        << (options.pixel_filter ? "" : ", no pixel filter")
+        << (report.sheets ? "light sheets" : splats_text(options))
         << text(", %zu x %zu, %u thread%s\n", options.width, options.height, report.threads,
                 report.threads == 1 ? "" : "s");
     for (const std::string& sentence : diagnoses(report))
@@ -111,6 +148,8 @@ void print_table(std::ostream& out, const Options& options, const Report& report
     passes_lines(out, "", report.caustic_passes);
     line(out, "eye path vertices", grouped(report.eye_vertices));
     line(out, "peak memory", text("%.1f MB", peak_memory() * 1e-6));
+    if (report.sheets)
+        sheet_lines(out, report);
     if (statistics.bounded_footprints > 0)
         line(out, "footprints bounded", grouped(statistics.bounded_footprints));
     if (statistics.bounded_shifts > 0)
@@ -141,7 +180,10 @@ void print_table(std::ostream& out, const Options& options, const Report& report
         if (tally.photons > 0 || tally.flux != 0)
             line(out, fate_names[i], text("%.6g", tally.flux), text("%.3f%%", 100 * tally.flux / emitted));
     }
-    line(out, "unaccounted", text("%.2g", emitted - statistics.accounted_flux()));
+    if (report.sheets)
+        line(out, "between sheets", text("%.6g", unresolved_flux(report)),
+             text("%.3f%%", 100 * unresolved_flux(report) / emitted));
+    line(out, "unaccounted", text("%.2g", emitted - statistics.accounted_flux() - unresolved_flux(report)));
 
     if (report.errors) {
         out << "against " << (options.reference ? options.reference->string() : "the exact picture") << '\n';
@@ -165,6 +207,7 @@ std::string json_text(const Options& options, const Report& report) {
            {"layer", json_string(name_in(layer_names(), options.layer))},
            {"bounces", report.bounces < all_bounces ? std::to_string(report.bounces) : json_string("all")},
            {"smoothing", report.smoothing ? json_number(*report.smoothing) : json_string("auto")},
+           {"method", json_string(name_of(options.method))},
            {"order", options.first_order ? "1" : "2"},
            {"sequence", json_string(name_of(options.sequence))},
            {"kernel", json_string(name_of(options.kernel))},
@@ -193,6 +236,8 @@ std::string json_text(const Options& options, const Report& report) {
         top.push_back({"caustic passes", passes_json(report.caustic_passes)});
     if (options.error && report.indirect)
         top.push_back({"indirect passes", passes_json(report.indirect_passes)});
+    if (report.sheets)
+        top.push_back({"sheets", sheets_json(*report.sheets)});
     if (report.indirect)
         top.push_back({"indirect", indirect_json(*report.indirect)});
     if (report.errors)

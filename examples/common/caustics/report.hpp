@@ -7,6 +7,7 @@
 #include "common/errors.hpp"
 
 #include "nephroid/bounce/splat_global.hpp"
+#include "nephroid/sheet/sheet_account.hpp"
 #include "nephroid/transport/account.hpp"
 
 #include <cstdint>
@@ -25,9 +26,17 @@ struct Timings {
     }
 };
 
+/// Caustics that were drawn as light sheets.
+struct SheetReport {
+    SheetAccount account;  ///< of all passes
+    double unresolved = 0; ///< SheetStatistics::unresolved, of all passes
+    Statistics splats;     ///< of light on no sheet, which was traced again
+};
+
 struct Report {
-    Statistics statistics;    ///< of caustics
-    bool has_caustics = true; ///< otherwise there was no pass for them: not asked for, or nothing is specular
+    Statistics statistics;             ///< of caustics
+    std::optional<SheetReport> sheets; ///< if they were drawn so
+    bool has_caustics = true;          ///< otherwise there was no pass for them: not asked for, or nothing is specular
     std::optional<GlobalSplats> indirect; ///< of all passes; the radius is that of the last
     PassReport caustic_passes, indirect_passes;
     unsigned bounces = 0; ///< off diffuse surfaces before the one that is seen, at most

@@ -4,6 +4,7 @@
 #include "common/study/bench.hpp"
 #include "common/study/gathering.hpp"
 #include "common/study/light_tracing.hpp"
+#include "common/study/sheet_drawing.hpp"
 #include "common/study/splatting.hpp"
 #include "common/text.hpp"
 
@@ -112,6 +113,7 @@ const std::vector<Method>& methods() {
          least_smoothing, most_smoothing, splat_second_order},
         {"splat-auto", "second-order splatting, s chosen by itself", "nephroid", "", "none", false, fine, one, one, one,
          splat_without_parameter},
+        {"sheets", "light sheets", "nephroid", "", "none", false, fine, one, one, one, draw_sheets},
         {"progressive-splat", "progressive differential splatting", "nephroid", "s", "smoothing of the first pass",
          false, fine, expected_first_smoothing, least_smoothing, most_first_smoothing, splat_progressively},
         {"fixed", "fixed-bandwidth splatting", "Lavignotte and Paulin 2003", "r", "radius, world units", false, fine,
