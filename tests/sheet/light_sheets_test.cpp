@@ -15,6 +15,7 @@
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace nephroid::tests::light_sheets_test {
@@ -167,6 +168,39 @@ TEST_CASE("light sheets: the same bits by one, two and seven threads") {
         CHECK(one.statistics.sheets.nodes == several.statistics.sheets.nodes);
     }
 }
+
+TEST_CASE("light sheets: a receiver that is kept makes the same bits as one that is not, picture after picture") {
+    std::vector<Vertex> vertices;
+    add_pixels(vertices, 0);
+    const Shelves scene{{{0, -10, 10}}};
+    const EyePathMap<Vec3> map(vertices, &Vertex::position, &Vertex::normal);
+    const SheetReceiver receiver(map);
+    for (const float low : {0.25f, 0.4f}) {
+        const auto light = beam(low, 0.75f);
+        const Result expected = draw(scene, light, vertices, 289);
+        auto sums = nephroid::sums<float>(map);
+        const SheetStatistics statistics = light_sheets(scene, light, sums, receiver, {.count = 289});
+        CHECK(statistics.sheets.cells == expected.statistics.sheets.cells);
+        CHECK(statistics.sheets.seen.flux == expected.statistics.sheets.seen.flux);
+        std::vector<float> irradiance(vertices.size());
+        sums.for_each([&](std::size_t vertex, float e) { irradiance[vertex] = e; });
+        CHECK(std::memcmp(irradiance.data(), expected.irradiance.data(), irradiance.size() * sizeof(float)) == 0);
+    }
+}
+
+#if defined(__cpp_exceptions)
+TEST_CASE("light sheets: a receiver of another map than the sums' is refused") {
+    std::vector<Vertex> vertices;
+    add_pixels(vertices, 0);
+    const EyePathMap<Vec3> map(vertices, &Vertex::position, &Vertex::normal), other = map;
+    const SheetReceiver receiver(other);
+    auto sums = nephroid::sums<float>(map);
+    const auto light = beam(0.25f, 0.75f);
+    CHECK_THROWS_WITH_AS(light_sheets(Shelves{{{0, -10, 10}}}, light, sums, receiver, {.count = 289}),
+                         "nephroid::light_sheets: the receiver is of another map than the sums; make it of sums.map()",
+                         std::invalid_argument);
+}
+#endif
 
 TEST_CASE("light sheets: a mirror smaller than its beam loses no light at its ends") {
     std::vector<Vertex> vertices;

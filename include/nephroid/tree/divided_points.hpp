@@ -3,10 +3,10 @@
 #pragma once
 
 #include "nephroid/tree/box.hpp"
+#include "nephroid/vector/bits.hpp"
 #include "nephroid/vector/not_unrolled.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -22,7 +22,7 @@ struct IndexedPoint {
         : at{position[0], position[1], position[2], packed(index)} {}
     [[nodiscard]] std::uint32_t index() const {
         if constexpr (std::is_same_v<T, float>)
-            return std::bit_cast<std::uint32_t>(at[3]);
+            return bit_cast<std::uint32_t>(at[3]);
         else
             return static_cast<std::uint32_t>(static_cast<double>(at[3]));
     }
@@ -30,7 +30,7 @@ struct IndexedPoint {
 private:
     [[nodiscard]] static T packed(std::uint32_t index) {
         if constexpr (std::is_same_v<T, float>)
-            return std::bit_cast<float>(index);
+            return bit_cast<float>(index);
         else
             return T(index);
     }

@@ -2,9 +2,9 @@
 /// @file  The concept of a scalar, and the mathematical functions that the library calls on scalars.
 #pragma once
 
+#include "nephroid/vector/bits.hpp"
 #include "nephroid/vector/language.hpp"
 
-#include <bit>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -52,9 +52,9 @@ using std::sin;
 using std::sqrt;
 
 /// Whether x is neither infinite nor NaN, by the bits of the exponent: -ffast-math makes std::isfinite always true.
-[[nodiscard]] constexpr bool isfinite(float x) { return (~std::bit_cast<std::uint32_t>(x) & 0x7f800000u) != 0; }
+[[nodiscard]] constexpr bool isfinite(float x) { return (~detail::bit_cast<std::uint32_t>(x) & 0x7f800000u) != 0; }
 [[nodiscard]] constexpr bool isfinite(double x) {
-    return (~std::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u) != 0;
+    return (~detail::bit_cast<std::uint64_t>(x) & 0x7ff0000000000000u) != 0;
 }
 [[nodiscard]] inline bool isfinite(long double x) { return std::isfinite(x); }
 

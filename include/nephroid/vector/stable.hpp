@@ -2,9 +2,9 @@
 /// @file  Arithmetic that neither cancels nor branches.
 #pragma once
 
+#include "nephroid/vector/bits.hpp"
 #include "nephroid/vector/scalar.hpp"
 
-#include <bit>
 #include <cstdint>
 
 namespace nephroid {
@@ -45,10 +45,10 @@ template <Scalar T>
 template <Scalar T>
 [[nodiscard]] constexpr T keep_if(bool condition, const T& value) {
     if constexpr (std::is_same_v<T, float>)
-        return std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) & (0u - std::uint32_t(condition)));
+        return detail::bit_cast<float>(detail::bit_cast<std::uint32_t>(value) & (0u - std::uint32_t(condition)));
     else if constexpr (std::is_same_v<T, double>)
-        return std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) &
-                                     (std::uint64_t(0) - std::uint64_t(condition)));
+        return detail::bit_cast<double>(detail::bit_cast<std::uint64_t>(value) &
+                                        (std::uint64_t(0) - std::uint64_t(condition)));
     else
         return condition ? value : T(0);
 }
