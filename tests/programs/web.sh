@@ -9,7 +9,7 @@ skip() {
     echo "Skipped: $*"
     exit 77
 }
-[ -x "$programs/web_caustic_map" ] || skip "web_caustic_map was not built"
+[ -x "$programs/web/web_caustic_map" ] || skip "web_caustic_map was not built"
 [ -e "$programs/web/caustic_map.js" ] || skip "the page was not built, em++ is missing (Debian: emscripten)"
 node=$(command -v node) || skip "node is missing (Debian: nodejs)"
 . "$(dirname "$0")/shared"

@@ -51,6 +51,16 @@ const call = (method, params = {}) => new Promise((resolve, reject) => {
     waiting.set(++number, { resolve, reject });
     browser.stdio[3].write(JSON.stringify({ id: number, method, params, sessionId: session }) + "\0");
 });
+// Processor seconds of the page and of what draws for it, since they began.
+const spent = async () => {
+    const id = ++number;
+    const { processInfo } = await new Promise((resolve, reject) => {
+        waiting.set(id, { resolve, reject });
+        browser.stdio[3].write(JSON.stringify({ id, method: "SystemInfo.getProcessInfo" }) + "\0");
+    });
+    const of = type => processInfo.filter(p => p.type === type).reduce((sum, p) => sum + p.cpuTime, 0);
+    return { page: of("renderer"), drawing: of("GPU") };
+};
 const sleep = ms => new Promise(resolve => setTimeout(resolve, ms));
 const evaluate = async text => {
     const answer = await call("Runtime.evaluate", { expression: text, returnByValue: true, awaitPromise: true });
@@ -103,6 +113,6 @@ async function main() {
     for (const domain of ["Page", "Runtime", "Network"])
         await call(domain + ".enable");
     return require(path.resolve(process.argv[5] || path.join(__dirname, "web_checks.js")))(
-        { call, evaluate, until, mouse, screen, open, seen, check, sleep, requests, told, out, fs, path });
+        { call, evaluate, until, mouse, screen, open, seen, check, sleep, spent, requests, told, out, fs, path });
 }
 main().then(() => end(0), error => fail(error.message));

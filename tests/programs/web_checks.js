@@ -4,7 +4,7 @@
 const { execFileSync } = require("child_process");
 
 module.exports = async ({ evaluate, until, mouse, screen, open, seen, check, sleep, requests, told, out, fs, path }) => {
-    const programs = path.dirname(path.resolve(process.argv[3]));
+    const program = path.join(path.resolve(process.argv[3]), "web_caustic_map");
     const still = "nephroidPage.state.idles = false, nephroidPage.state.wavesRun = false, nephroidPage.touch()";
     await open(1180, 860);
     check(await evaluate("nephroidPage.state.idles"), "the lamp moves by itself until somebody drags it");
@@ -49,7 +49,7 @@ module.exports = async ({ evaluate, until, mouse, screen, open, seen, check, sle
             for (let i = 0; i < b.length; i += 8192) s += String.fromCharCode(...b.subarray(i, i + 8192));
             return btoa(s); })(nephroidPage.trace(${method}, 4000))`);
         const page = Buffer.from(text, "base64"), shown = new Float32Array(page.buffer.slice(page.byteOffset, page.byteOffset + page.length));
-        execFileSync(path.join(programs, "web_caustic_map"), [scene, method, 4000, 512, ...at, 1.25, file].map(String));
+        execFileSync(program, [scene, method, 4000, 512, ...at, 1.25, file].map(String));
         const bytes = fs.readFileSync(file);
         fs.unlinkSync(file);
         const here = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length));

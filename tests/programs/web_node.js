@@ -19,7 +19,7 @@ const most = 1e-4, odd = 16;
 
 function native(scene, method, photons, size, seconds) {
     const file = path.join(os.tmpdir(), "web-native-" + process.pid + ".raw");
-    execFileSync(path.join(programs, "web_caustic_map"),
+    execFileSync(path.join(programs, "web", "web_caustic_map"),
         [scene, method, photons, size, ...lamps[scene], seconds, file].map(String));
     const bytes = fs.readFileSync(file);
     fs.unlinkSync(file);

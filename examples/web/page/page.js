@@ -8,17 +8,18 @@
     const scenes = [
         { power: 9, orbit: { azimuth: -1.15, elevation: 0.86, distance: 3.6, target: [0.02, 0.06, 0.06] },
           lamp: [0.75, 0.55, 1.5], photons: 5000, converged: 150000, path: [1.0, 0.75] },
-        { power: 15, orbit: { azimuth: -0.95, elevation: 0.62, distance: 4.5, target: [0.3, -0.22, 0.3] },
+        { power: 15, orbit: { azimuth: -0.95, elevation: 0.62, distance: 4.2, target: [0.32, -0.24, 0.32] },
           lamp: [-1.55, 0.95, 1.6], photons: 5000, converged: 101000, path: [-0.6, 1.1] },
-        { power: 12, orbit: { azimuth: -0.9, elevation: 0.85, distance: 4.6, target: [0, 0, 0.62] },
+        { power: 12, orbit: { azimuth: -0.9, elevation: 0.85, distance: 4.1, target: [0, 0, 0.66] },
           lamp: [0.2, 0.25, 2.1], photons: 4000, converged: 150000, path: [0.7, 0.7] },
     ];
     const state = {
-        scene: 0, method: 0, photons: 5000, size: 512, lamp: [0, 0, 2], seconds: 0,
+        scene: 0, method: 0, frames: 0, photons: 5000, size: 512, lamp: [0, 0, 2], seconds: 0,
         wavesRun: true, idles: true, // until somebody drags, the lamp moves by itself
         orbits: scenes.map(s => ({ ...s.orbit })),
     };
-    let caustics, view, changed = true, still = 0, last = 0, frames = [], errors = null, sharp = false, fine = 1;
+    let caustics, view, changed = true, still = 0, last = 0, frames = [], errors = null, sharp = false, fine = 1, sinceAdapted = 0,
+        isNew = true;
 
     // The library draws the floor's irradiance. Returns a view of its memory, which the next call overwrites.
     function trace(method, photons) {
@@ -80,11 +81,16 @@
         if (changed) {
             changed = false, errors = state.errors = null, still = now;
             const took = picture();
+            ++state.frames;
             const before = frames[frames.length - 1]; // what of a frame's time is not the light's is the picture's
             frames.push({ now, light: took.light, eye: before ? Math.max(now - before.now - before.light, 0) : 0 });
-            frames = frames.filter(f => now - f.now < 1500);
+            frames = frames.filter(f => now - f.now < 4000).slice(-24);
             report();
-            adapt();
+            const eye = frames.slice(-3).reduce((sum, f) => sum + f.eye, 0) / 3;
+            if (isNew)
+                isNew = false, fine = 0.5, resize(), adapt(timed());
+            else if (++sinceAdapted > 4 && frames.length > 4 && (eye > 40 || (eye < 17 && fine < 1)))
+                adapt(Math.max(eye, 17));
         } else if (now - still > 250 && !sharp) {
             sharp = true, frames = [];
             resize(), changed = false;
@@ -94,13 +100,21 @@
         }
     }
 
-    // Fewer pixels while frames take long for the eye's part; all of them once the picture is still.
-    function adapt() {
-        if (frames.length < 4 || state.pixels)
-            return;
-        const eye = frames.slice(-3).reduce((sum, f) => sum + f.eye, 0) / 3;
-        if (eye > 35 && fine > 0.3)
-            fine = Math.max(0.3, fine * Math.max(0.6, Math.sqrt(30 / eye))), frames = frames.slice(-1);
+    // Fewer pixels while the picture takes long, as without a graphics card; all of them once it is still. Of a scene's
+    // first picture the time is asked for, of later ones it is what the light leaves of a frame.
+    function adapt(eye) {
+        fine = Math.min(1, Math.max(0.3, fine * Math.sqrt(25 / eye)));
+        sinceAdapted = 0;
+    }
+    function timed() {
+        const one = new Uint8Array(4), gl = view.gl, times = [];
+        for (let i = 0; i < 2; ++i) { // the first also compiles
+            const start = performance.now();
+            show(1);
+            gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, one);
+            times.push(performance.now() - start);
+        }
+        return Math.max(times[1], 1);
     }
 
     function report() {
@@ -192,7 +206,7 @@
     function choose(scene) {
         const chosen = scenes[scene];
         Object.assign(state, { scene, lamp: chosen.lamp.slice(), idles: true, turn: 0 });
-        fine = 1, frames = [], errors = state.errors = null;
+        isNew = true, frames = [], errors = state.errors = state.rate = null;
         setPhotons(chosen.photons);
         get("height").value = state.lamp[2];
         get("waves").hidden = scene !== 2;
