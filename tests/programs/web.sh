@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# The page of examples/web: what the library draws in WebAssembly is what it draws here, with each method and in each scene,
-# in node and in a browser; and in a headless Chromium the page loads, draws, follows a drag, and fits a phone.
+# The page of examples/web: what the library draws in WebAssembly is what it draws here, with each method and in each
+# scene, in node and in a browser; and in a headless Chromium the page loads, draws, follows a drag, and fits a phone.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 programs=$1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Drives the page of examples/web in a headless Chromium over its debugging pipe, as a person would: looks, drags, chooses.
+// Drives the page of examples/web in a headless Chromium over its debugging pipe, as a person would.
 // node web_browser.js <chromium> <the page's folder> <folder for what comes out> [width height name]
 "use strict";
 const { spawn } = require("child_process");
@@ -85,8 +85,9 @@ const open = async (width, height, density = 1) => {
     await call("Emulation.setDeviceMetricsOverride",
         { width, height, deviceScaleFactor: density, mobile: width < 600 });
     await call("Page.navigate", { url: "file://" + path.resolve(folder, "index.html") });
-    await until("the page loads", "!!window.nephroidPage || document.getElementById('verdict')?.className === 'failed'");
-    if (await evaluate("document.getElementById('verdict')?.className === 'failed'"))
+    const failed = "document.getElementById('verdict')?.className === 'failed'";
+    await until("the page loads", "!!window.nephroidPage || " + failed);
+    if (await evaluate(failed))
         throw new Error(await evaluate("document.getElementById('verdict')?.textContent"));
 };
 // The picture that WebGL drew, as its mean and its variance.

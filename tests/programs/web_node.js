@@ -13,8 +13,9 @@ const methods = ["sheets", "splats", "thin lens", "dots"], names = ["ring", "tum
 const lamps = [[0.75, 0.55, 1.5], [-1.55, 0.95, 1.6], [0.2, 0.25, 2.1]];
 
 // Floating point is the same in both but for the C library's functions (angles on a tube, logarithms where sheets are
-// split), a unit in the last place, which folds magnify by a thousand at most: 1e-4 of a pixel. A photon that meets a rim in
-// one and misses it in the other moves its flux out of a few pixels: two such photons may. A wrong formula moves all pixels.
+// split), a unit in the last place, which folds magnify by a thousand at most: 1e-4 of a pixel. A photon that meets a
+// rim in one and misses it in the other moves its flux out of a few pixels: two such photons may. A wrong formula moves
+// all pixels.
 const most = 1e-4, odd = 16;
 
 function native(scene, method, photons, size, seconds) {
@@ -32,7 +33,7 @@ create().then(caustics => {
         return new Float32Array(caustics.HEAPF32.buffer, at, size * size); // not before: the call may grow the memory
     };
     if (process.argv[3] === "time") {
-        console.log("load " + os.loadavg()[0].toFixed(1) + " on " + os.cpus().length + " cores; processor ms a picture, 512 x 512");
+        console.log(`load ${os.loadavg()[0].toFixed(1)} on ${os.cpus().length} cores; processor ms, 512 x 512 places`);
         for (const [scene, photons] of [[0, 5000], [1, 5000], [2, 4000]])
             for (const method of [0, 1, 2, 3]) {
                 const times = [];
@@ -52,15 +53,17 @@ create().then(caustics => {
     const size = 128, photons = 4000, seconds = 1.25;
     for (let scene = 0; scene < 3; ++scene)
         for (let method = 0; method < 4; ++method) {
-            const here = native(scene, method, photons, size, seconds), there = draw(scene, method, photons, size, seconds);
-            const sum = here.reduce((a, b) => a + b, 0), other = there.reduce((a, b) => a + b, 0), mean = sum / here.length;
+            const here = native(scene, method, photons, size, seconds);
+            const there = draw(scene, method, photons, size, seconds);
+            const total = light => light.reduce((a, b) => a + b, 0);
+            const sum = total(here), other = total(there), mean = sum / here.length;
             const apart = Array.from(here, (e, i) => Math.abs(e - there[i]));
             const differing = apart.filter((d, i) => !(d <= most * (mean + here[i]))).length;
             const rms = Math.sqrt(apart.reduce((a, d) => a + d * d, 0) / apart.length) / mean;
             const holds = sum > 0 && differing <= odd && Math.abs(other / sum - 1) <= 2 / photons;
             failed += !holds;
-            console.log(`${names[scene]}, ${methods[method]}: rms difference ${rms.toExponential(1)} of the mean, energy ` +
-                `${(other / sum - 1).toExponential(1)}, ${differing} of ${size * size} pixels differ` +
+            console.log(`${names[scene]}, ${methods[method]}: rms difference ${rms.toExponential(1)} of the mean, ` +
+                `energy ${(other / sum - 1).toExponential(1)}, ${differing} of ${size * size} pixels differ` +
                 (holds ? "" : "  FAILED"));
         }
     process.exitCode = failed ? 1 : 0;

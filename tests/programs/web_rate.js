@@ -14,10 +14,10 @@ module.exports = async ({ evaluate, open, sleep, spent }) => {
         const to = await spent(), frames = await evaluate("nephroidPage.state.frames") - first;
         const seconds = (Date.now() - start) / 1000, per = key => 1000 * (to[key] - from[key]) / frames;
         const width = await evaluate("nephroidPage.view.canvas.width");
+        const light = per("page"), eye = per("drawing");
         console.log(`${name}: ${(frames / seconds).toFixed(1)} frames/s at load ${os.loadavg()[0].toFixed(1)} on ` +
-            `${os.cpus().length} cores. Processor ms a frame: ${per("page").toFixed(1)} for the page, which draws the ` +
-            `light, ${per("drawing").toFixed(1)} for WebGL in software, ${width} pixels wide. So one core makes ` +
-            `${(1000 / per("page")).toFixed(0)} frames/s of light, ${(1000 / (per("page") + per("drawing"))).toFixed(0)} ` +
-            "of both");
+            `${os.cpus().length} cores. Processor ms a frame: ${light.toFixed(1)} for the light, ` +
+            `${eye.toFixed(1)} for WebGL in software, ${width} pixels wide. So one core makes ` +
+            `${(1000 / light).toFixed(0)} frames/s of light, ${(1000 / (light + eye)).toFixed(0)} of both`);
     }
 };

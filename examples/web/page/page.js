@@ -18,8 +18,8 @@
         wavesRun: true, idles: true, // until somebody drags, the lamp moves by itself
         orbits: scenes.map(s => ({ ...s.orbit })),
     };
-    let caustics, view, changed = true, still = 0, last = 0, frames = [], errors = null, sharp = false, fine = 1, sinceAdapted = 0,
-        isNew = true;
+    let caustics, view, changed = true, still = 0, last = 0, frames = [], errors = null;
+    let sharp = false, fine = 1, sinceAdapted = 0, isNew = true;
 
     // The library draws the floor's irradiance. Returns a view of its memory, which the next call overwrites.
     function trace(method, photons) {
@@ -130,7 +130,8 @@
         for (let i = 0; i < methods.length; ++i)
             get("error" + i).textContent = "", get("bar" + i).style.width = "0";
         get("verdict").textContent = state.idles ? "Drag the lamp. When all is still, each way is measured here."
-            : state.scene === 2 && state.wavesRun ? "Stop the waves to measure each way here." : "Measured when all is still …";
+            : state.scene === 2 && state.wavesRun ? "Stop the waves to measure each way here."
+            : "Measured when all is still …";
     }
 
     // The error of all four ways with as many photons, against a picture of many times more.

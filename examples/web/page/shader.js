@@ -175,7 +175,8 @@ vec3 radiance(vec3 o, vec3 d, out float first) {
         share *= mix(metal * 0.92, vec3(1), grazing);
         d = reflect(d, n);
         o = p + 1e-4 * n;
-        sum += share * glint(p, d, 0.0006) * (reachBelow(p + 0.02 * n, TOP).y < INNER * INNER || p.z > TOP - 0.02 ? 1.0 : 0.0);
+        bool seesLamp = p.z > TOP - 0.02 || reachBelow(p + 0.02 * n, TOP).y < INNER * INNER;
+        sum += share * glint(p, d, 0.0006) * (seesLamp ? 1.0 : 0.0);
     }
     return sum;
 }

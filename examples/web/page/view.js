@@ -10,7 +10,7 @@ class CausticView {
             throw new Error("This page needs WebGL 2, which this browser does not offer.");
         this.gl = gl;
         this.programs = [null, null, null];
-        this.hasLevels = !!(gl.getExtension("EXT_color_buffer_float") || gl.getExtension("EXT_color_buffer_half_float"));
+        this.hasLevels = ["EXT_color_buffer_float", "EXT_color_buffer_half_float"].some(e => gl.getExtension(e));
         gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
         gl.bufferData(gl.ARRAY_BUFFER, new Float32Array([-1, -1, 3, -1, -1, 3]), gl.STATIC_DRAW);
         gl.enableVertexAttribArray(0);
