@@ -68,7 +68,7 @@ const evaluate = async text => {
         throw new Error(answer.exceptionDetails.exception.description);
     return answer.result.value;
 };
-const until = async (what, text, seconds = 120) => {
+const until = async (what, text, seconds = 300) => {
     for (const start = Date.now(); Date.now() - start < 1000 * seconds; await sleep(100))
         if (await evaluate(text))
             return;
