@@ -13,6 +13,7 @@
 #include "nephroid/differential/transfer.hpp"
 #include "nephroid/emission/light/standard_lights.hpp"
 #include "nephroid/emission/separate_targets.hpp"
+#include "nephroid/emission/spectrum/spectral.hpp"
 #include "nephroid/emission/without_tangents.hpp"
 #include "nephroid/execution/executor.hpp"
 #include "nephroid/execution/thread_executor.hpp"
