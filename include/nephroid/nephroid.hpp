@@ -11,6 +11,7 @@
 #include "nephroid/differential/reflection.hpp"
 #include "nephroid/differential/refraction.hpp"
 #include "nephroid/differential/transfer.hpp"
+#include "nephroid/emission/extended.hpp"
 #include "nephroid/emission/light/standard_lights.hpp"
 #include "nephroid/emission/separate_targets.hpp"
 #include "nephroid/emission/spectrum/spectral.hpp"

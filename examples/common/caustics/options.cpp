@@ -106,6 +106,14 @@ void refuse_contradictions(const Options& options) {
         throw UsageError("--curved: bends what --first-order keeps straight; leave one of them out");
     if (!options.first_order && options.kernel != KernelKind::biweight)
         throw UsageError("--kernel: other kernels than the biweight come with --first-order here");
+    if (options.bands && *options.bands != Options::most_bands)
+        throw UsageError("--bands: " + std::to_string(*options.bands) + " is not 16, the number that is built in");
+    if (options.bands && options.curved)
+        throw UsageError("--curved: splats photons in pieces, and so does --bands; leave one of them out");
+    if (options.bands && is_builtin(options.scene))
+        throw UsageError("--bands: is for files and rooms; the glass of a built-in case does not disperse");
+    if (options.bands && options.error)
+        throw UsageError("--bands: makes one pass; leave --error out");
     if (options.samples < 1 || options.samples > 4096)
         throw UsageError("--samples: " + std::to_string(options.samples) + " is not from 1 to 4096");
     check_threads(options.threads);
@@ -132,7 +140,7 @@ void refuse_what_has_no_effect(const CLI::App& app, const Options& options) {
                          " has no light between diffuse surfaces; leave one of them out");
     if (options.layer == Layer::indirect && options.bounces == 0u)
         throw UsageError("--bounces: without any, --layer indirect has no light");
-    for (const char* const name : {"--smoothing", "--first-order", "--curved", "--kernel"})
+    for (const char* const name : {"--smoothing", "--first-order", "--curved", "--kernel", "--bands"})
         if (!has_caustics && app.count(name) > 0)
             throw UsageError(std::string(name) + ": is for caustics, and --layer " + layer + " has none");
     if (options.layer == Layer::direct && options.error)
@@ -167,6 +175,11 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     app.add_flag("--first-order", options.first_order,
                  "Splat photons where they land, as Frisvad et al. 2014 do; else where their bias cancels");
     app.add_flag("--curved", options.curved, "Splat in pieces where the light bends: for few photons on sharp folds");
+    unsigned bands = 0;
+    app.add_option(
+        "--bands", bands,
+        "16: caustics of a file in so many bands of the spectrum, for glass that disperses; in --layers each "
+        "has a channel");
     app.add_option("--size", size,
                    "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
     app.add_option("--samples", options.samples, "Eye paths per pixel [1]");
@@ -218,6 +231,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     options.width = pixels.width;
     options.height = pixels.height;
     options.height_given = pixels.height_given;
+    if (app.count("--bands") > 0)
+        options.bands = bands;
     options.cross_validated = smoothing == "cross-validated";
     if (smoothing != "auto" && !options.cross_validated)
         options.smoothing = smoothing_in(smoothing);

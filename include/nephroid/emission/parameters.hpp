@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file  What a photon may have besides its ray and its flux, such as a wavelength, and what its tangents are taken
-///             by.
+///        by.
 #pragma once
 
 #include "nephroid/emission/photon.hpp"

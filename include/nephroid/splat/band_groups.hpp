@@ -25,8 +25,8 @@ struct BandGroup {
 ///
 /// Bands beyond the wavelengths at which the photon's path exists get nothing, and those within get more, by one over
 /// the share of the spectrum that takes this path: photons of the other wavelengths take another one.
-template <class Spectrum, class Use>
-void for_each_band_group(const Wavelength<Spectrum>& photon, double apart, const Use& use) {
+template <class Spectrum, class Others, class Use>
+void for_each_band_group(const Wavelength<Spectrum, Others>& photon, double apart, const Use& use) {
     constexpr auto count = Spectrum::count;
     const auto at = [&](double coordinate) { return photon.steps_to(photon.spectrum.wavelength(coordinate)); };
     double lowest = 0, highest = double(count);

@@ -16,8 +16,8 @@ namespace nephroid::detail {
 
 /// Moves a deposit along its tangent by wavelength to where the middle of the spectrum lands, so that photons that
 /// differ in their wavelengths alone lie at one place.
-template <Vector3 V, Flux F, std::size_t N, class Spectrum>
-void move_to_middle(Deposit<V, F, N>& deposit, Wavelength<Spectrum>& photon) {
+template <Vector3 V, Flux F, std::size_t N, class Spectrum, class Others>
+void move_to_middle(Deposit<V, F, N>& deposit, Wavelength<Spectrum, Others>& photon) {
     const double steps = photon.steps_to(photon.spectrum.wavelength(0.5 * double(Spectrum::count)));
     const V there = deposit.position + scalar_t<V>(steps) * deposit.d_position[N - 1];
     if (!all_finite(there))
@@ -30,10 +30,10 @@ void move_to_middle(Deposit<V, F, N>& deposit, Wavelength<Spectrum>& photon) {
 /// and widened by what one band spreads [include/nephroid/README.md, "Wavelengths"].
 ///
 /// @param deposit  its last tangent is by wavelength
-template <class V, class F, class R, class Policies, std::size_t N, class Spectrum>
+template <class V, class F, class R, class Policies, std::size_t N, class Spectrum, class Others>
     requires(N >= 3)
 void prepare_bands(const Splatter<V, F, R, Policies>& splatter, const Deposit<V, F, N>& deposit,
-                   const Wavelength<Spectrum>& photon, SplatChunk<V, F>& chunk, Statistics& account) {
+                   const Wavelength<Spectrum, Others>& photon, SplatChunk<V, F>& chunk, Statistics& account) {
     using T = scalar_t<V>;
     using Kernel = std::remove_cvref_t<decltype(splatter.policies().kernel)>;
     const V streak = deposit.d_position[N - 1]; // ∂x/∂λ

@@ -82,7 +82,7 @@ public:
     using flux_type = typename L::flux_type;
     using T = scalar_t<vector>;
     static constexpr std::size_t tangents = emitted_t<L>::tangent_count + 1;
-    using photon_type = ParametricPhoton<vector, flux_type, tangents, Wavelength<Spectrum>>;
+    using photon_type = ParametricPhoton<vector, flux_type, tangents, Wavelength<Spectrum, detail::parameters_t<L>>>;
 
     /// @param parts  equal parts of the spectrum, at least 1: a photon lights the bands of the part that its
     ///               wavelength is in, and is then brighter. A tangent predicts places to first order, so an error is
@@ -110,6 +110,7 @@ public:
         (std::make_index_sequence<tangents - 1>());
         photon_type emitted{
             photon.position, photon.direction, photon.flux, differential, {spectrum_.wavelength(at), spectrum_}};
+        emitted.parameters.others = detail::parameters_of(photon);
         if (parts_ > 1) {
             const double width = double(Spectrum::count) / double(parts_), part = std::floor(at / width);
             emitted.parameters.shortest = spectrum_.wavelength(part * width);

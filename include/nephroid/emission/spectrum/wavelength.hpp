@@ -18,15 +18,23 @@ namespace nephroid {
 ///
 /// At another wavelength λ' the photon lands at x + `steps_to(λ')` ∂x/∂λ. This is linear in λ⁻², as Cauchy's
 /// index of refraction is, whatever the number of glasses [include/nephroid/README.md, "Wavelengths"].
-template <DividesSpectrum Spectrum>
+///
+/// @tparam Others  the other parameters of the photon; their tangents stand before that by λ
+template <DividesSpectrum Spectrum, class Others = NoParameters>
 struct Wavelength {
-    static constexpr std::array tangents{TangentKind::wavelength};
+    static constexpr auto tangents = [] {
+        std::array<TangentKind, Others::tangents.size() + 1> kinds{};
+        std::copy(Others::tangents.begin(), Others::tangents.end(), kinds.begin());
+        kinds.back() = TangentKind::wavelength;
+        return kinds;
+    }();
     using spectrum_type = Spectrum;
 
     double wavelength; ///< λ, > 0
     Spectrum spectrum;
     /// Between these wavelengths the photon's path exists. The walk narrows them where glass reflects all light.
     double shortest = 0, longest = std::numeric_limits<double>::infinity();
+    [[no_unique_address]] Others others{};
     double moved = 0; ///< how many ∂x/∂λ the deposit has been moved along its tangent
 
     [[nodiscard]] double steps_to(double other) const {
