@@ -174,6 +174,14 @@ if [ -f bands.exr ]; then
     done
 fi
 
+# The scenes that are built in, with their cameras.
+for scene in gold-ring prism embedded-torus swimming-pool; do
+    "$caustics" $scene --photons 500 --size 24 --output m.png --json m.json >m.txt 2>errors.txt ||
+        fail "$scene: $(cat errors.txt)"
+    at_least "$(value m.json 'caustic photons')" 100 "$scene: caustic photons"
+done
+"$caustics" prism --bands 16 --photons 500 --size 24 --output m.png >m.txt || fail "prism in bands"
+
 # Rooms, and light between diffuse surfaces: the same for any number of threads, with its account in the statistics.
 few="--photons 5000 --size 24"
 for layer in all direct caustics indirect; do
@@ -306,6 +314,7 @@ refuses "reflections" ring --reflections two
 refuses "layer" box.gltf --layer glass
 refuses "layer" ring --layer direct
 refuses "bands" box.gltf --bands 5
+refuses "sun" prism --sun 0,-1,0
 refuses "bands" ring --bands 16
 refuses "curved" box.gltf --bands 16 --curved
 refuses "bands" box.gltf --bands 16 --error 2%

@@ -3,6 +3,7 @@
 
 #include "common/builtin_film.hpp"
 #include "common/rooms.hpp"
+#include "common/scenes/scenes.hpp"
 
 #include "nephroid/version.hpp"
 
@@ -155,8 +156,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     Options options;
     CLI::App app("Renders caustics by photon differential splatting and says how wrong they are.", "caustics");
     app.add_option("scene", options.scene,
-                   "A built-in case (" + builtin_names() + "), a room (" + names_of_rooms() +
-                       ") or a .glb or .gltf file")
+                   "A built-in case (" + builtin_names() + "), a room (" + names_of_rooms() + "), a scene (" +
+                       names_of_scenes() + ") or a .glb or .gltf file")
         ->required();
     app.set_version_flag("--version", version_text());
     std::string photons = "20000", emit, error, size = "512", seed = "0";

@@ -4,6 +4,7 @@
 
 #include "common/ray.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -55,8 +56,8 @@ public:
     /// A bound on the slope.
     [[nodiscard]] double steepest() const { return steepest_; }
 
-    /// The first crossing of a ray at a distance in (t_min, t_max): Newton's method where the ray is steeper than the
-    /// waves, so that it crosses once; else in steps of a quarter of the shortest wave, and then by bisection.
+    /// The first crossing of a ray at a distance in (t_min, t_max): at once where the ray is steeper than the waves, so
+    /// that it crosses once; else in steps that the slopes' bound allows, but for a 256th of the shortest wave.
     [[nodiscard]] std::optional<double> crossing(const Vec3<double>& origin, const Vec3<double>& direction,
                                                  double t_min, double t_max) const {
         const auto above = [&](double t) {
@@ -73,23 +74,25 @@ public:
             return std::nullopt;
         const double across = std::hypot(direction.x, direction.y);
         const bool is_steep = std::abs(direction.z) > steepest_ * across;
-        const double step = is_steep ? to - from : (std::min)(to - from, quarter_of_shortest() / across);
+        const double fastest = std::abs(direction.z) + steepest_ * across; // change of the height above the waves
         double before = above(from);
-        for (double t = from; t < to; t += step) {
-            const double next = (std::min)(t + step, to), after = above(next);
+        for (double t = from; t < to;) {
+            const double step = (std::max)(std::abs(before) / fastest, shortest() / (256 * across));
+            const double next = is_steep ? to : (std::min)(t + step, to), after = above(next);
             if ((before > 0) != (after > 0))
                 return root(origin, direction, t, next, before > 0);
             before = after;
+            t = next;
         }
         return std::nullopt;
     }
 
 private:
-    [[nodiscard]] double quarter_of_shortest() const {
+    [[nodiscard]] double shortest() const {
         double most = 1e-30;
         for (const Wave& wave : waves_)
             most = (std::max)(most, std::hypot(wave.kx, wave.ky));
-        return 0.25 / most;
+        return 1 / most;
     }
 
     /// Newton's method, and bisection where a step leaves the bracket.
