@@ -5,6 +5,7 @@
 #include "nephroid/smoothing/cross_validation.hpp"
 #include "nephroid/smoothing/pilot.hpp"
 #include "nephroid/smoothing/second_order/policies.hpp"
+#include "nephroid/splat/landed_photon.hpp"
 #include "nephroid/splat/splat_arguments.hpp"
 
 namespace nephroid {
