@@ -9,6 +9,7 @@
 #include "common/image/png.hpp"
 #include "common/image/write.hpp"
 #include "common/rooms.hpp"
+#include "common/scenes/scenes.hpp"
 
 #include <exception>
 #include <iostream>
@@ -29,9 +30,9 @@ int main(int argc, char** argv) {
         std::optional<Samples> reference;
         if (options->reference)
             reference = read_pfm(*options->reference);
-        Rendering rendering = is_builtin(options->scene) ? render_builtin(*options)
-                              : is_room(options->scene)  ? render_room(*options)
-                                                         : render_file(*options);
+        Rendering rendering = is_builtin(options->scene)                            ? render_builtin(*options)
+                              : is_room(options->scene) || is_scene(options->scene) ? render_room(*options)
+                                                                                    : render_file(*options);
         if (reference)
             rendering.report.errors = errors_against(*reference, rendering.picture);
         write_image(options->output, rendering.picture, rendering.exposure);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// @file  Measures the library's claims against exact results: `study compare`, `study smoothing`, `study relax`. Each
-///        prints tables, and leaves figures, plots, pictures and a page with all of them in a folder.
+/// @file  Measures the library's claims against exact results: `study compare`, `study smoothing`, `study relax`,
+///        `study spectrum`. Each prints tables, and leaves figures, plots, pictures and a page with all of them in a
+///        folder.
 #include "common/study/compare/command.hpp"
 #include "common/study/relax/command.hpp"
 #include "common/study/smoothing/command.hpp"
+#include "common/study/spectrum/command.hpp"
 
 #include <CLI/CLI.hpp>
 
@@ -30,9 +32,12 @@ void run(int argc, const char* const* argv) {
     CLI::App& smoothing_app =
         *app.add_subcommand("smoothing", "Footprints chosen photon by photon, against the best smoothing for all");
     CLI::App& relax_app = *app.add_subcommand("relax", "A photon map relaxed into blue noise: before and after");
+    CLI::App& spectrum_app =
+        *app.add_subcommand("spectrum", "Colours by tangents, against brute force, three indices and none");
     const study::compare::Command compare(compare_app);
     const study::smoothing::Command smoothing(smoothing_app);
     const study::relax::Command relax(relax_app);
+    const study::spectrum::Command spectrum(spectrum_app);
     if (!parse(app, argc, argv))
         return;
     const std::string command = command_line(argc, argv);
@@ -42,6 +47,8 @@ void run(int argc, const char* const* argv) {
         smoothing.run(command);
     if (relax_app.parsed())
         relax.run(command);
+    if (spectrum_app.parsed())
+        spectrum.run(command);
 }
 
 } // namespace

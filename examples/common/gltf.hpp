@@ -45,6 +45,7 @@ struct MaterialDescription {
     float roughness = 1;    ///< in [0, 1]
     float transmission = 0; ///< in [0, 1]
     float ior = 1.5f;       ///< >= 1, or 0: the specular-glossiness mode of KHR_materials_ior, Fresnel reflectance 1
+    float dispersion = 0;   ///< >= 0: 20 over the Abbe number
     bool has_volume =
         false; ///< KHR_materials_volume with a thickness: the mesh bounds a medium, or else is a thin wall
     glm::vec3 attenuation_color{1}; ///< in [0, 1]: the share left after `attenuation_distance`
@@ -128,9 +129,9 @@ struct UnreadableGltf : std::runtime_error {
 ///
 /// Read: triangles, strips and fans, accessors of every component type, sparse and interleaved ones, buffers inside the
 /// file, beside it and as data URIs, nested transforms (a mirroring one keeps the front in front), and the extensions
-/// KHR_lights_punctual, KHR_mesh_quantization, KHR_materials_transmission, _ior, _volume and _emissive_strength, and
-/// EXT_mesh_gpu_instancing. A scene whose specular surfaces are far from the origin is moved to the origin in double
-/// precision, because a caustic needs all seven digits of a float.
+/// KHR_lights_punctual, KHR_mesh_quantization, KHR_materials_transmission, _ior, _dispersion, _volume and
+/// _emissive_strength, and EXT_mesh_gpu_instancing. A scene whose specular surfaces are far from the origin is moved to
+/// the origin in double precision, because a caustic needs all seven digits of a float.
 /// Textures of base colour, transmission and normals are read from PNG and JPEG, with KHR_texture_transform.
 /// Left out with a warning: points and lines, other textures, vertex colours, animation, skins and morph targets.
 /// An image takes 24 bytes a pixel while it is decoded; one beside the scene's file counts as part of that.

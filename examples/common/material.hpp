@@ -74,6 +74,14 @@ struct MaterialTextures {
     double alpha_cutoff = 0;  ///< above 0: less coverage counts as 0, the rest as 1
 };
 
+/// In place of a wavelength: light of which the index is `Material::ior`.
+inline constexpr double mean_light = 0;
+
+struct RefractiveIndex {
+    double value;
+    double slope; ///< by the wavelength, 1/nm
+};
+
 template <Flux F>
 struct Material {
     Surface surface = Surface::diffuse;
@@ -81,8 +89,9 @@ struct Material {
     F emission = flux_traits<F>::zero(); ///< radiance seen on the side of the normal
     bool emits_on_both_sides = false;
 
-    double ior = 1.5;    ///< of the inside, which the normal points away from
-    bool fresnel = true; ///< whether the interface reflects; otherwise all light is refracted
+    double ior = 1.5;      ///< of the inside, which the normal points away from
+    double dispersion = 0; ///< 20 over the Abbe number, >= 0
+    bool fresnel = true;   ///< whether the interface reflects; otherwise all light is refracted
     Follow follow = Follow::both;
     F absorption = flux_traits<F>::zero(); ///< of the inside, 1 / length: Beer's law
     std::int32_t priority = 0; ///< where insides overlap, the material with the highest priority fills the space
@@ -95,6 +104,17 @@ struct Material {
     double coverage = 1; ///< 0 to 1: the share of the area that the surface covers; light passes through the rest
 
     std::shared_ptr<const MaterialTextures> textures{}; ///< null: the same everywhere
+
+    /// The index for light of a wavelength, nanometres, or for `mean_light`: Cauchy's formula through `ior` at the
+    /// yellow helium line, with the Abbe number's difference between the hydrogen lines.
+    /// Source: glTF 2.0, KHR_materials_dispersion.
+    [[nodiscard]] RefractiveIndex index_at(double wavelength) const {
+        if (dispersion == 0 || wavelength == mean_light)
+            return {ior, 0};
+        const double scale = (ior - 1) * dispersion / 20, inverse2 = 523655 / (wavelength * wavelength);
+        const double n = ior + scale * (inverse2 - 1.5168);
+        return n > 1 ? RefractiveIndex{n, -2 * scale * inverse2 / wavelength} : RefractiveIndex{1, 0};
+    }
 
     [[nodiscard]] bool passes_light() const { return surface == Surface::dielectric || surface == Surface::window; }
     [[nodiscard]] bool is_specular() const {

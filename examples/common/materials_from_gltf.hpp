@@ -61,6 +61,7 @@ template <Flux F>
         material = is_window ? Material<F>::window(double(m.ior)) : Material<F>::dielectric(double(m.ior));
         material.color = color;
         material.transmission = double(m.transmission);
+        material.dispersion = double(m.dispersion);
         if (m.has_volume && std::isfinite(m.attenuation_distance))
             material.absorption =
                 absorption_from<F>(color_from_rgb<F>(m.attenuation_color), double(m.attenuation_distance));

@@ -25,6 +25,7 @@ struct Bounce {
     F weight = flux_traits<F>::zero();
     T eta = T(1);
     Medium medium = {}; ///< that a refracted ray enters
+    T d_eta = T(0);     ///< ∂η/∂λ, for photons with a wavelength
 };
 
 /// How one ray meets a dielectric.
@@ -34,6 +35,7 @@ struct Interface {
     T cos_incident; ///< with the shading normal if that faces the ray, otherwise with the geometric one
     Medium beyond;  ///< the media of a refracted ray
     bool is_real;   ///< false if the same medium is on both sides, so that light does not notice the surface
+    T d_eta = T(0); ///< ∂η/∂λ
 };
 
 /// How a scene's surfaces scatter light. A surface's inside is the side that its normal points away from. So a sheet of
@@ -64,9 +66,16 @@ public:
     template <class Sampler>
     [[nodiscard]] Bounce<T, F> scatter(const Hit<T>& hit, const Vec3<T>& direction, Sampler& sampler,
                                        const Medium& through) const {
+        return scatter_at(hit, direction, sampler, through, mean_light);
+    }
+
+    /// @param wavelength  of the light, nanometres, or `mean_light`: then indices are those of `Material::ior`
+    template <class Sampler>
+    [[nodiscard]] Bounce<T, F> scatter_at(const Hit<T>& hit, const Vec3<T>& direction, Sampler& sampler,
+                                          const Medium& through, double wavelength) const {
         const Material<F>& m = material(hit);
         if (m.is_mixture())
-            return scatter_mixture(m, hit, direction, through, sampler.template next<T>());
+            return scatter_mixture(m, hit, direction, through, sampler.template next<T>(), wavelength);
         switch (m.surface) {
         case Surface::diffuse:
             return scattered(hit);
@@ -76,12 +85,12 @@ public:
         case Surface::dielectric:
             break;
         case Surface::window:
-            return scatter_mixture(m, hit, direction, through, sampler.template next<T>());
+            return scatter_mixture(m, hit, direction, through, sampler.template next<T>(), wavelength);
         case Surface::black:
             return {Event::absorb};
         }
 
-        const Interface<T> at = interface(m, hit, direction, through);
+        const Interface<T> at = interface(m, hit, direction, through, wavelength);
         if (!at.is_real)
             return {Event::pass, grey<F>(1), T(1), at.beyond};
         const T reflected = reflectance(m, at);
@@ -135,11 +144,11 @@ public:
 
     /// The shares at a mixture. Its rest is diffuse, or scattered as its surface says.
     [[nodiscard]] Shares shares(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
-                                const Medium& through = Medium{}) const {
+                                const Medium& through = Medium{}, double wavelength = mean_light) const {
         const T covered = T(this->coverage(hit));
         if (!m.passes_light())
             return {T(1) - covered, T(0), T(0)};
-        T reflected = reflectance(m, interface(m, hit, direction, through));
+        T reflected = reflectance(m, interface(m, hit, direction, through, wavelength));
         if (m.surface == Surface::window) // the sum over all reflections between its two faces
             reflected = T(2) * reflected / (T(1) + reflected);
         return {T(1) - covered, covered * reflected, covered * (T(1) - reflected) * T(this->transmission(hit))};
@@ -148,13 +157,15 @@ public:
     /// How a ray in a medium meets a dielectric. A window is thin: a ray enters it from both sides, and leaves it
     /// again.
     [[nodiscard]] Interface<T> interface(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
-                                         const Medium& through) const {
+                                         const Medium& through, double wavelength = mean_light) const {
         if (m.surface == Surface::window)
-            return {T(index_of(through.here()) / m.ior), cosine(hit, direction), through, true};
+            return {T(index_of(through.here(), wavelength).value / m.ior), cosine(hit, direction), through, true};
         const bool enters = dot(direction, hit.geometric_normal) < T(0);
         const auto surface = through.at_surface_of(static_cast<std::int32_t>(hit.surface), m.priority, enters);
-        return {T(index_of(surface.before) / index_of(surface.after)), cosine(hit, direction), surface.beyond,
-                surface.is_real()};
+        const RefractiveIndex before = index_of(surface.before, wavelength),
+                              after = index_of(surface.after, wavelength);
+        return {T(before.value / after.value), cosine(hit, direction), surface.beyond, surface.is_real(),
+                T((before.slope * after.value - before.value * after.slope) / (after.value * after.value))};
     }
 
     /// The share of the light that a dielectric reflects; without Fresnel terms, all or nothing.
@@ -176,7 +187,7 @@ public:
     ///
     /// @param share  of the light, carried by the refracted ray
     [[nodiscard]] Bounce<T, F> refracted(const Hit<T>& hit, const Interface<T>& at, T share) const {
-        return {Event::refract, color(hit) * grey<F>(double(share)), at.eta, at.beyond};
+        return {Event::refract, color(hit) * grey<F>(double(share)), at.eta, at.beyond, at.d_eta};
     }
 
     /// The share of the light that is left after a flight through a medium, by band.
@@ -223,8 +234,8 @@ private:
     ///
     /// @param number  chooses the way, 0 to 1
     [[nodiscard]] Bounce<T, F> scatter_mixture(const Material<F>& m, const Hit<T>& hit, const Vec3<T>& direction,
-                                               const Medium& through, T number) const {
-        const Shares share = shares(m, hit, direction, through);
+                                               const Medium& through, T number, double wavelength) const {
+        const Shares share = shares(m, hit, direction, through, wavelength);
         T left = number - share.missed;
         if (left < T(0))
             return {Event::refract, grey<F>(1), T(1), through};
@@ -232,7 +243,7 @@ private:
             return {Event::reflect, reflectance(m, hit, direction)};
         if (!m.passes_light())
             return m.is_diffuse() ? scattered(hit) : Bounce<T, F>{};
-        const Interface<T> at = interface(m, hit, direction, through);
+        const Interface<T> at = interface(m, hit, direction, through, wavelength);
         if (!at.is_real)
             return {Event::pass, grey<F>(1), T(1), at.beyond};
         left -= share.reflected;
@@ -247,8 +258,8 @@ private:
 
     [[nodiscard]] Bounce<T, F> scattered(const Hit<T>& hit) const { return {Event::diffuse, color(hit)}; }
 
-    [[nodiscard]] double index_of(std::int32_t number) const {
-        return number < 0 ? 1 : materials()[static_cast<std::size_t>(number)].ior;
+    [[nodiscard]] RefractiveIndex index_of(std::int32_t number, double wavelength) const {
+        return number < 0 ? RefractiveIndex{1, 0} : materials()[static_cast<std::size_t>(number)].index_at(wavelength);
     }
 
     /// The cosine between the ray and the shading normal, or, if that faces away, the geometric normal.

@@ -37,7 +37,7 @@ namespace nephroid {
 /// copy of the sums.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
-                 detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>>)
+                 detail::MustBeScene<detail::scene_for<S, L>, V, Sampler<detail::sequence_among<Arguments...>>>)
 Statistics caustics(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
                     Arguments&&... arguments) {
     detail::check(pass, "nephroid::caustics");

@@ -261,6 +261,7 @@ TEST_CASE("glTF: a material has its factors, and those of the extensions for gla
         "pbrMetallicRoughness":{"baseColorFactor":[0.1,0.2,0.3,1],"metallicFactor":0.25,"roughnessFactor":0.75},
         "extensions":{"KHR_materials_transmission":{"transmissionFactor":0.875},"KHR_materials_ior":{"ior":1.33},
         "KHR_materials_volume":{"thicknessFactor":1,"attenuationColor":[0.5,1,0.25],"attenuationDistance":2.5},
+        "KHR_materials_dispersion":{"dispersion":0.5},
         "KHR_materials_emissive_strength":{"emissiveStrength":20}}})",
                       "{}"};
     const SceneDescription scene = parse(file);
@@ -272,6 +273,7 @@ TEST_CASE("glTF: a material has its factors, and those of the extensions for gla
     CHECK(material.roughness == 0.75f);
     CHECK(material.transmission == 0.875f);
     CHECK(material.ior == 1.33f);
+    CHECK(material.dispersion == 0.5f);
     CHECK(material.has_volume);
     CHECK(material.attenuation_color == glm::vec3(0.5f, 1, 0.25f));
     CHECK(material.attenuation_distance == 2.5f);
@@ -284,11 +286,21 @@ TEST_CASE("glTF: a material has its factors, and those of the extensions for gla
     CHECK(empty.roughness == 1);
     CHECK(empty.transmission == 0);
     CHECK(empty.ior == 1.5f);
+    CHECK(empty.dispersion == 0);
     CHECK_FALSE(empty.has_volume);
     CHECK(std::isinf(empty.attenuation_distance));
     CHECK(empty.emission == glm::vec3(0));
     CHECK_FALSE(empty.double_sided);
     CHECK(scene.warnings.empty());
+}
+
+TEST_CASE("glTF: a negative dispersion is taken as none and warned of") {
+    GltfFile file;
+    file.materials = {R"({"extensions":{"KHR_materials_dispersion":{"dispersion":-1}}})"};
+    const SceneDescription scene = parse(file);
+    CHECK(scene.materials.at(0).dispersion == 0);
+    REQUIRE(scene.warnings.size() == 1);
+    CHECK(scene.warnings[0].find("negative dispersion") != std::string::npos);
 }
 
 TEST_CASE("glTF: a primitive without a material gets the default one, at the end of the list") {

@@ -99,6 +99,48 @@ TEST_CASE_TEMPLATE("scene: glass reflects or refracts by one number against the 
     }
 }
 
+// The Abbe number is (n_d − 1)/(n_F − n_C), of the lines at 486.13, 587.56 and 656.27 nm. The extension's constants
+// are rounded to six digits and to five, which are 10⁻⁵ of the difference.
+TEST_CASE("material: dispersion is that of the Abbe number") {
+    for (const double abbe : {20., 55., 90.}) {
+        Material<float> glass = Material<float>::dielectric(1.6);
+        CHECK(glass.index_at(450).value == 1.6);
+        glass.dispersion = 20 / abbe;
+        CHECK(glass.index_at(587.56).value == doctest::Approx(1.6).epsilon(1e-6));
+        const double difference = glass.index_at(486.13).value - glass.index_at(656.27).value;
+        CHECK(difference == doctest::Approx(0.6 / abbe).epsilon(2e-5));
+        CHECK(glass.index_at(mean_light).value == 1.6);
+        CHECK(glass.index_at(mean_light).slope == 0);
+        const double slope = (glass.index_at(500.01).value - glass.index_at(499.99).value) / 0.02;
+        CHECK(glass.index_at(500).slope == doctest::Approx(slope).epsilon(1e-6));
+    }
+    Material<float> air = Material<float>::dielectric(1.001);
+    air.dispersion = 40; // more than there is: an index below 1 is none
+    CHECK(air.index_at(2000).value == 1);
+    CHECK(air.index_at(2000).slope == 0);
+}
+
+TEST_CASE("scene: a ratio of indices has the slope of its differences between glass and liquid") {
+    Material<double> glass = Material<double>::dielectric(1.6, false),
+                     liquid = Material<double>::dielectric(1.4, false);
+    glass.dispersion = 0.8;
+    liquid.dispersion = 0.4;
+    const Vec3<double> up(0, 0, 1);
+    Scene<double, double> scene({{Floor<double>(0), 0}, {Floor<double>(-5), 1}}, {glass, liquid});
+    const auto hit = scene.intersect(Vec3<double>(0, 0, 1), -up, 0, 10);
+    REQUIRE(hit);
+    Medium outside;
+    outside.enter(1, 0); // the liquid
+    ListSampler none;
+    for (const Medium& through : {Medium{}, outside}) {
+        const auto eta = [&](double wavelength) { return scene.scatter_at(*hit, -up, none, through, wavelength).eta; };
+        const auto at = scene.scatter_at(*hit, -up, none, through, 500);
+        CHECK(at.eta < 1);
+        CHECK(at.d_eta == doctest::Approx((eta(500.01) - eta(499.99)) / 0.02).epsilon(1e-6));
+        CHECK(scene.scatter(*hit, -up, none, through).d_eta == 0);
+    }
+}
+
 TEST_CASE_TEMPLATE("scene: no number is drawn where there is nothing to choose", T, float, double) {
     ListSampler none;
     const auto whole = bounce<T>(Colors<T>::dielectric(1.5, false), false, none);

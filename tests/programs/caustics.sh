@@ -175,6 +175,24 @@ at_least "$(value box.json 'caustic photons')" 1500 "box.gltf: caustic photons"
     fail "box.gltf with all that can be added"
 ! grep -q "assumed --" box.txt || fail "called assumed what was asked for"
 
+# In bands: glass that does not disperse looks as in three colours, and a layer has a channel for each band.
+"$caustics" box.gltf --photons 2000 --size 64 --bands 16 --reference box.pfm --output bands.png --json bands.json \
+    --layers bands.exr >box.txt 2>errors.txt || grep -q "without OpenEXR" errors.txt || fail "bands: $(cat errors.txt)"
+if [ -f bands.exr ]; then
+    at_most "$(value bands.json rel)" 0.05 "bands of white light: rel" # Fresnel draws other numbers
+    for channel in caustics.409nm.Y caustics.691nm.Y; do
+        grep -q -a "$channel" bands.exr || fail "the layers have no channel $channel"
+    done
+fi
+
+# The scenes that are built in, with their cameras.
+for scene in gold-ring prism embedded-torus swimming-pool; do
+    "$caustics" $scene --photons 500 --size 24 --output m.png --json m.json >m.txt 2>errors.txt ||
+        fail "$scene: $(cat errors.txt)"
+    at_least "$(value m.json 'caustic photons')" 100 "$scene: caustic photons"
+done
+"$caustics" prism --bands 16 --photons 500 --size 24 --output m.png >m.txt || fail "prism in bands"
+
 # Rooms, and light between diffuse surfaces: the same for any number of threads, with its account in the statistics.
 few="--photons 5000 --size 24"
 for layer in all direct caustics indirect; do
@@ -306,6 +324,12 @@ refuses "pixel-filter" ring --pixel-filter maybe
 refuses "reflections" ring --reflections two
 refuses "layer" box.gltf --layer glass
 refuses "layer" ring --layer direct
+refuses "bands" box.gltf --bands 5
+refuses "sun" prism --sun 0,-1,0
+refuses "bands" ring --bands 16
+refuses "curved" box.gltf --bands 16 --curved
+refuses "bands" box.gltf --bands 16 --error 2%
+refuses "bands" box.gltf --bands 16 --layer direct
 refuses "bounces" ring --bounces 2
 refuses "bounces" box --bounces some
 refuses "bounces" box --layer direct --bounces 2

@@ -68,7 +68,7 @@ awk "BEGIN { exit !($emission > $base_emission) }" || fail "an area light's tang
 nm --demangle plain.o >symbols.txt
 grep -q 'nephroid::Flat::operator()' symbols.txt || fail "no symbols"
 for unused in Refraction ShapeOperator ParametricCurvature InterpolatedCurvature AnyCurvature FiniteDifference reemit AreaEmission \
-    QuadLight PointLight LightSet WithoutTangents; do
+    QuadLight PointLight LightSet WithoutTangents ParametricScene Wavelength; do
     ! grep -q "$unused" symbols.txt || fail "$unused is compiled though nothing uses it"
 done
 

@@ -20,7 +20,7 @@ struct Rendering {
     Samples picture;
     double exposure; ///< that shows the picture well as a .png
     Report report;
-    std::vector<RenderedLayer> layers; ///< the picture is their sum
+    std::vector<RenderedLayer> layers; ///< the picture is their sum, but for the films of single bands
 };
 
 /// Renders a built-in case, without direct light.

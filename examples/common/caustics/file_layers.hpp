@@ -71,6 +71,13 @@ struct LayeredScene {
                                        const FileMap& map, const Options& options, ThreadExecutor& threads,
                                        Report& report);
 
+/// The caustics in bands of the spectrum, and as colours.
+///
+/// @param films  gets a film for each band, if the options ask for layers
+[[nodiscard]] FileLayer spectral_layer_of(const FileScene& scene, const FileLamps& lamps, const FileEyePaths& eye,
+                                          const FileMap& map, const Options& options, ThreadExecutor& threads,
+                                          Report& report, std::vector<RenderedLayer>& films);
+
 /// The light that at least one diffuse surface has scattered.
 ///
 /// @param bounces  the most, off diffuse surfaces before the one that is seen

@@ -6,6 +6,7 @@
 #include "common/image/read_environment.hpp"
 #include "common/rooms.hpp"
 #include "common/scene_from_gltf.hpp"
+#include "common/scenes/scenes.hpp"
 #include "common/stopwatch.hpp"
 
 #include "nephroid/vector/glm.hpp"
@@ -94,8 +95,10 @@ Rendering render_room(Options& options) {
     if (options.sun || options.ground || options.environment)
         throw UsageError("--sun, --ground and --environment: are for files; a room has a lamp and a floor");
     Stopwatch total;
-    auto room = built_in_room<float>(options.scene).value();
-    return render_layers(options, {std::move(room.scene), std::move(room.lamps), room.camera, all_bounces}, {}, total);
+    const bool is_open = is_scene(options.scene);
+    auto room = is_open ? built_in_scene<float>(options.scene).value() : built_in_room<float>(options.scene).value();
+    return render_layers(
+        options, {std::move(room.scene), std::move(room.lamps), room.camera, is_open ? 0 : all_bounces}, {}, total);
 }
 
 } // namespace nephroid::examples

@@ -33,7 +33,7 @@ Rendering render_layers(Options& options, const LayeredScene& seen, Report repor
     report.eye_vertices = eye.vertices.size();
     report.seconds.eye_paths = stopwatch.lap();
 
-    std::vector<RenderedLayer> layers;
+    std::vector<RenderedLayer> layers, films;
     Image<glm::vec3> picture(options.width, options.height, glm::vec3(0));
     const auto add = [&](const std::string& name, FileLayer found) {
         for (std::size_t i = 0; i < found.pixels.size(); ++i)
@@ -54,7 +54,9 @@ Rendering render_layers(Options& options, const LayeredScene& seen, Report repor
         const FileMap map = are_sheets ? FileMap(eye.vertices, &Vertex::position, &Vertex::normal, &Vertex::footprint)
                                        : FileMap(eye.vertices, &Vertex::position, &Vertex::normal);
         report.seconds.map = stopwatch.lap();
-        if (has_caustics)
+        if (has_caustics && options.bands)
+            add("caustics", spectral_layer_of(scene, lamps, eye, map, options, threads, report, films));
+        else if (has_caustics)
             add("caustics", are_sheets ? sheet_layer_of(scene, lamps, eye, map, options, threads, report)
                                        : caustic_layer_of(scene, lamps, eye, map, options, threads, report));
         if (has_indirect && report.interrupted)
@@ -63,6 +65,8 @@ Rendering render_layers(Options& options, const LayeredScene& seen, Report repor
             add("indirect", indirect_layer_of(scene, lamps, eye, map, options, bounces, threads, report));
     }
     report.seconds.total = total.lap();
+    for (RenderedLayer& film : films)
+        layers.push_back(std::move(film));
 
     Samples samples(picture);
     const double exposure = room_exposure(samples);

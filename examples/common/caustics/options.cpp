@@ -3,6 +3,7 @@
 
 #include "common/builtin_film.hpp"
 #include "common/rooms.hpp"
+#include "common/scenes/scenes.hpp"
 
 #include "nephroid/version.hpp"
 
@@ -108,6 +109,14 @@ void refuse_contradictions(const Options& options) {
         throw UsageError("--curved: bends what --first-order keeps straight; leave one of them out");
     if (!options.first_order && options.kernel != KernelKind::biweight)
         throw UsageError("--kernel: other kernels than the biweight come with --first-order here");
+    if (options.bands && *options.bands != Options::most_bands)
+        throw UsageError("--bands: " + std::to_string(*options.bands) + " is not 16, the number that is built in");
+    if (options.bands && options.curved)
+        throw UsageError("--curved: splats photons in pieces, and so does --bands; leave one of them out");
+    if (options.bands && is_builtin(options.scene))
+        throw UsageError("--bands: is for files and rooms; the glass of a built-in case does not disperse");
+    if (options.bands && options.error)
+        throw UsageError("--bands: makes one pass; leave --error out");
     if (options.samples < 1 || options.samples > 4096)
         throw UsageError("--samples: " + std::to_string(options.samples) + " is not from 1 to 4096");
     check_threads(options.threads);
@@ -127,7 +136,7 @@ void refuse_contradictions(const Options& options) {
 /// Options of splats, which sheets would ignore.
 void refuse_what_sheets_ignore(const CLI::App& app) {
     for (const char* const name :
-         {"--smoothing", "--first-order", "--curved", "--kernel", "--sequence", "--seed", "--pixel-filter"})
+         {"--smoothing", "--first-order", "--curved", "--kernel", "--sequence", "--seed", "--pixel-filter", "--bands"})
         if (app.count(name) > 0)
             throw UsageError(std::string(name) + ": is for splats, and --method sheets needs none of it");
 }
@@ -142,7 +151,7 @@ void refuse_what_has_no_effect(const CLI::App& app, const Options& options) {
                          " has no light between diffuse surfaces; leave one of them out");
     if (options.layer == Layer::indirect && options.bounces == 0u)
         throw UsageError("--bounces: without any, --layer indirect has no light");
-    for (const char* const name : {"--method", "--smoothing", "--first-order", "--curved", "--kernel"})
+    for (const char* const name : {"--method", "--smoothing", "--first-order", "--curved", "--kernel", "--bands"})
         if (!has_caustics && app.count(name) > 0)
             throw UsageError(std::string(name) + ": is for caustics, and --layer " + layer + " has none");
     if (options.layer == Layer::direct && options.error)
@@ -159,8 +168,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     Options options;
     CLI::App app("Renders caustics by photon differential splatting and says how wrong they are.", "caustics");
     app.add_option("scene", options.scene,
-                   "A built-in case (" + builtin_names() + "), a room (" + names_of_rooms() +
-                       ") or a .glb or .gltf file")
+                   "A built-in case (" + builtin_names() + "), a room (" + names_of_rooms() + "), a scene (" +
+                       names_of_scenes() + ") or a .glb or .gltf file")
         ->required();
     app.set_version_flag("--version", version_text());
     std::string photons = "20000", emit, error, size = "512", seed = "0";
@@ -181,6 +190,11 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
         "--first-order cross-validated: the s at which parts of the photons agree best");
     app.add_flag("--first-order", options.first_order, "The same as --method published");
     app.add_flag("--curved", options.curved, "Splat in pieces where the light bends: for few photons on sharp folds");
+    unsigned bands = 0;
+    app.add_option(
+        "--bands", bands,
+        "16: caustics of a file in so many bands of the spectrum, for glass that disperses; in --layers each "
+        "has a channel");
     app.add_option("--size", size,
                    "Pixels: 640x360, or a width, with the height a file's camera wants or the same [512]");
     app.add_option("--samples", options.samples, "Eye paths per pixel [1]");
@@ -232,6 +246,8 @@ std::optional<Options> read_options(int argc, const char* const* argv) {
     options.width = pixels.width;
     options.height = pixels.height;
     options.height_given = pixels.height_given;
+    if (app.count("--bands") > 0)
+        options.bands = bands;
     options.cross_validated = smoothing == "cross-validated";
     if (smoothing != "auto" && !options.cross_validated)
         options.smoothing = smoothing_in(smoothing);

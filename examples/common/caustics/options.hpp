@@ -30,12 +30,14 @@ struct Sun {
 };
 
 struct Options {
-    std::string scene;                     ///< the name of a built-in case or a room, or a .glb or .gltf file
-    std::uint64_t photons = 20'000;        ///< caustic photons wanted
-    std::optional<std::uint64_t> emit;     ///< photons to emit, instead
-    std::optional<double> error;           ///< of the mean of passes, as a share of it; nothing: one pass
-    std::optional<double> smoothing;       ///< s; nothing: chosen for each photon
-    bool cross_validated = false;          ///< s is chosen for all photons together, to first order
+    std::string scene;                 ///< the name of a built-in case or a room, or a .glb or .gltf file
+    std::uint64_t photons = 20'000;    ///< caustic photons wanted
+    std::optional<std::uint64_t> emit; ///< photons to emit, instead
+    std::optional<double> error;       ///< of the mean of passes, as a share of it; nothing: one pass
+    std::optional<double> smoothing;   ///< s; nothing: chosen for each photon
+    bool cross_validated = false;      ///< s is chosen for all photons together, to first order
+    static constexpr unsigned most_bands = 16;
+    std::optional<unsigned> bands;         ///< of a file's caustics; nothing: red, green and blue
     Method method = Method::splats;        ///< that draws the caustics
     bool first_order = false;              ///< photon differential splatting as published
     bool curved = false;                   ///< footprints in pieces that bend as the light does

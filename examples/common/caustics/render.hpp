@@ -37,17 +37,18 @@ using AnyKernel = std::variant<BiweightKernel, EpanechnikovKernel, ConeKernel, U
 /// Calls use(policies) with the splat policies that the options ask for.
 ///
 /// @param repeats  whether the scene repeats over the light's patch
-template <class K, class Use>
+/// @tparam curves  whether footprints may be in pieces
+template <bool curves = true, class K, class Use>
 void with_policies(const Options& options, const K& kernel, bool repeats, Use&& use) {
     const PixelFilter filter{options.pixel_filter ? 1.0 : 0.0};
     if (options.first_order)
         use(Published{.filter = filter}.with_kernel(kernel));
     else if constexpr (std::same_as<K, BiweightKernel>) { // for the others the options insist on first order
         const SecondOrder order{.domain_repeats = repeats};
-        if (options.curved)
-            use(Default{.filter = filter}.with_order(CurvedFootprints{order}));
-        else
-            use(Default{.filter = filter, .order = order});
+        if constexpr (curves)
+            if (options.curved)
+                return use(Default{.filter = filter}.with_order(CurvedFootprints{order}));
+        use(Default{.filter = filter, .order = order});
     }
 }
 
@@ -73,31 +74,34 @@ auto splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
             report.seconds.pilot += stopwatch.lap();
 
             PhotonPass pass{.count = emit, .smoothing = options.smoothing, .limits = limits};
-            with_policies(options, kernel, repeats, [&](const auto& policies) {
-                TimingExecutor timing(threads);
-                auto sums = nephroid::sums<F>(map);
-                if (options.cross_validated)
-                    pass.smoothing = cross_validated_smoothing(scene, light, sums, pass, policies, sequence, timing);
-                report.smoothing = options.first_order ? pass.smoothing.value_or(default_smoothing) : pass.smoothing;
-                layer = trace_passes(
-                    options.error, emit,
-                    [&](std::uint64_t first, const auto& progress) {
-                        sums.clear();
-                        pass.first = first;
-                        pass.progress = progress;
-                        const Statistics of_pass =
-                            nephroid::caustics(scene, light, sums, pass, policies, sequence, timing);
-                        report.statistics += of_pass;
-                        return of_pass.emitted.photons;
-                    },
-                    [&] { return pixels_of(std::as_const(sums)); });
-                report.seconds.trace += timing.trace_seconds();
-                report.seconds.fit += timing.fit_seconds();
-                report.seconds.splat += timing.splat_seconds();
-                report.caustic_passes = layer.report;
-                divide_flux(report.statistics, layer.report.passes);
-                report.interrupted = report.interrupted || layer.report.is_interrupted;
-            });
+            with_policies<!nephroid::detail::has_wavelength<nephroid::detail::parameters_t<L>>>(
+                options, kernel, repeats, [&](const auto& policies) {
+                    TimingExecutor timing(threads);
+                    auto sums = nephroid::sums<F>(map);
+                    if (options.cross_validated)
+                        pass.smoothing =
+                            cross_validated_smoothing(scene, light, sums, pass, policies, sequence, timing);
+                    report.smoothing =
+                        options.first_order ? pass.smoothing.value_or(default_smoothing) : pass.smoothing;
+                    layer = trace_passes(
+                        options.error, emit,
+                        [&](std::uint64_t first, const auto& progress) {
+                            sums.clear();
+                            pass.first = first;
+                            pass.progress = progress;
+                            const Statistics of_pass =
+                                nephroid::caustics(scene, light, sums, pass, policies, sequence, timing);
+                            report.statistics += of_pass;
+                            return of_pass.emitted.photons;
+                        },
+                        [&] { return pixels_of(std::as_const(sums)); });
+                    report.seconds.trace += timing.trace_seconds();
+                    report.seconds.fit += timing.fit_seconds();
+                    report.seconds.splat += timing.splat_seconds();
+                    report.caustic_passes = layer.report;
+                    divide_flux(report.statistics, layer.report.passes);
+                    report.interrupted = report.interrupted || layer.report.is_interrupted;
+                });
         },
         make_kernel(options), make_sequence(options.sequence, options.seed));
     return layer;

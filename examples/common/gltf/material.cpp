@@ -172,6 +172,12 @@ MaterialDescription read_material(const tinygltf::Material& material, std::size_
     if (result.ior != 0 && !(result.ior >= 1))
         fail({owner, " has an ior of ", std::to_string(result.ior), "; it must be at least 1, or 0"});
 
+    result.dispersion = Extension(material, "KHR_materials_dispersion", owner).number("dispersion", 0);
+    if (!(result.dispersion >= 0)) {
+        warnings.add(owner + " has a negative dispersion; it is taken as 0");
+        result.dispersion = 0;
+    }
+
     const Extension volume(material, "KHR_materials_volume", owner);
     result.has_volume = volume.number("thicknessFactor", 0) > 0;
     result.attenuation_color = clamp(volume.color("attenuationColor", glm::vec3(1)), "attenuationColor");

@@ -21,9 +21,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> read_extensions{
-    "KHR_lights_punctual",  "KHR_mesh_quantization",           "KHR_materials_transmission", "KHR_materials_ior",
-    "KHR_materials_volume", "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",    "KHR_texture_transform",
+constexpr std::array<std::string_view, 9> read_extensions{
+    "KHR_lights_punctual",   "KHR_mesh_quantization",    "KHR_materials_transmission",      "KHR_materials_ior",
+    "KHR_materials_volume",  "KHR_materials_dispersion", "KHR_materials_emissive_strength", "EXT_mesh_gpu_instancing",
+    "KHR_texture_transform",
 };
 
 /// These extensions are about how images are stored. Materials that use such an image do without it, with a warning.

@@ -57,14 +57,14 @@ std::vector<std::string> listed(const std::string& option, const std::string& te
     return words;
 }
 
-std::vector<std::uint64_t> read_photon_counts(const std::string& text) {
+std::vector<std::uint64_t> read_photon_counts(const std::string& text, const std::string& option) {
     std::vector<std::uint64_t> counts;
-    for (const std::string& word : listed("--photons", text))
-        counts.push_back(whole_number("--photons", word, 100));
+    for (const std::string& word : listed(option, text))
+        counts.push_back(whole_number(option, word, 100));
     std::ranges::sort(counts);
     keep_first_of_each(counts);
     if (counts.back() > 100'000'000)
-        throw UsageError("--photons: " + std::to_string(counts.back()) + " are more than 1e8, and all are stored");
+        throw UsageError(option + ": " + std::to_string(counts.back()) + " are more than 1e8, and all are stored");
     return counts;
 }
 

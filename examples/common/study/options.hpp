@@ -43,8 +43,9 @@ struct Presentation {
 /// The words between commas. Throws UsageError for an empty one, which names the option.
 [[nodiscard]] std::vector<std::string> listed(const std::string& option, const std::string& text);
 
-/// "5000,2e4": counts of --photons, growing, each once, from 100 to 1e8. Throws UsageError.
-[[nodiscard]] std::vector<std::uint64_t> read_photon_counts(const std::string& text);
+/// "5000,2e4": counts of an option, growing, each once, from 100 to 1e8. Throws UsageError.
+[[nodiscard]] std::vector<std::uint64_t> read_photon_counts(const std::string& text,
+                                                            const std::string& option = "--photons");
 
 /// "halton,random": kinds of --sequence, each once. Throws UsageError.
 [[nodiscard]] std::vector<SequenceKind> read_sequences(const std::string& text);

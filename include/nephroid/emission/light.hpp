@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/domain.hpp"
+#include "nephroid/emission/parameters.hpp"
 #include "nephroid/emission/photon.hpp"
 #include "nephroid/emission/spread.hpp"
 
@@ -32,6 +33,9 @@ template <class P, class L>
 inline constexpr bool is_photon_of = false;
 template <class L, std::size_t N>
 inline constexpr bool is_photon_of<Photon<typename L::vector, typename L::flux_type, N>, L> = N >= 2;
+template <class L, std::size_t N, class P>
+inline constexpr bool is_photon_of<ParametricPhoton<typename L::vector, typename L::flux_type, N, P>, L> =
+    N - P::tangents.size() >= 2 && N >= P::tangents.size();
 
 template <class P, class L>
 concept PhotonOf = is_photon_of<P, L>;
@@ -100,6 +104,10 @@ using emitted_t = std::remove_cvref_t<decltype(std::declval<const L&>().emit(
     std::declval<detail::AnySampleSource&>(), std::declval<const Spread<scalar_t<typename L::vector>>&>()))>;
 
 namespace detail {
+/// The parameters of a light's photons: `NoParameters` if they have none.
+template <class L>
+using parameters_t = typename parameters_in<emitted_t<L>>::type;
+
 template <class L>
 concept DeclaresDomain = requires {
     { &L::domain } -> std::same_as<const EmissionDomain*>;

@@ -5,6 +5,7 @@
 #include "nephroid/smoothing/cross_validation.hpp"
 #include "nephroid/smoothing/pilot.hpp"
 #include "nephroid/smoothing/second_order/policies.hpp"
+#include "nephroid/splat/landed_photon.hpp"
 #include "nephroid/splat/splat_arguments.hpp"
 
 namespace nephroid {
@@ -34,7 +35,7 @@ namespace nephroid {
 /// 160,000. Memory: the traced photons and a copy of the sums.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
-                 detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>>)
+                 detail::MustBeScene<detail::scene_for<S, L>, V, Sampler<detail::sequence_among<Arguments...>>>)
 [[nodiscard]] double cross_validated_smoothing(const S& scene, const L& light, const Sums<V, F, R>& sums,
                                                const PhotonPass& pass, Arguments&&... arguments) {
     static_assert(Light<L>, "nephroid: cross_validated_smoothing needs a light with tangents, not WithoutTangents");

@@ -8,6 +8,7 @@
 #include "nephroid/sequence/sequence.hpp"
 #include "nephroid/smoothing/second_order/path_pieces.hpp"
 #include "nephroid/smoothing/second_order/second_order.hpp"
+#include "nephroid/splat/spectral_splat.hpp"
 #include "nephroid/transport/walk.hpp"
 
 #include <algorithm>
@@ -15,12 +16,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace nephroid::detail {
 
 template <class L>
-using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type, tangent_count_of<L>>;
+using traced_photon_t = TracedPhoton<typename L::vector, typename L::flux_type, tangent_count_of<L>, parameters_t<L>>;
 
 /// Traces a photon, emitted with smoothing 1.
 ///
@@ -34,10 +36,15 @@ template <class S, class L, class Sequence>
     const Spread<T> spread{T(pass.emitted_in_all()), T(1)};
     Sampler<Sequence> sampler(sequence, index);
     RecordingSource<Sampler<Sequence>> recorder(sampler, coordinates_of<L>);
-    const auto emitted = light.emit(recorder, spread);
+    auto emitted = light.emit(recorder, spread);
     assert(recorder.is_complete()); // otherwise the light drew fewer numbers than its `domain` has coordinates
-    const auto deposit = walk(scene, emitted, sampler, pass.limits, account, trail);
-    return {recorder.sample(), EmissionFrame(emitted), trail.value(), deposit};
+    const EmissionFrame frame(plain(emitted));
+    auto deposit = walk(scene, std::move(emitted), sampler, pass.limits, account, trail);
+    auto parameters = parameters_of(emitted);
+    if constexpr (has_wavelength<parameters_t<L>>)
+        if (deposit)
+            move_to_middle(*deposit, parameters);
+    return {recorder.sample(), frame, trail.value(), deposit, parameters};
 }
 
 /// The first photons of the picture that a pass is a part of. All passes of one picture make the same pilot. A pass
@@ -80,8 +87,8 @@ template <class S, class L, class Sequence, class E>
 ///
 /// @tparam domains       the kinds of domains that the lights may have
 /// @param largest_reach  of a footprint, world units: the receiver's diagonal
-template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class Policies, class E>
-[[nodiscard]] SecondOrderFootprints<V, domains> fit_footprints(const Pilot<TracedPhoton<V, F, N>>& pilot,
+template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class P, class Policies, class E>
+[[nodiscard]] SecondOrderFootprints<V, domains> fit_footprints(const Pilot<TracedPhoton<V, F, N, P>>& pilot,
                                                                const PhotonPass& pass, const Policies& policies,
                                                                double largest_reach, bool stratified, E& executor) {
     using Kernel = std::remove_cvref_t<decltype(policies.kernel)>;
@@ -93,7 +100,7 @@ template <EmissionDomains domains, Vector3 V, Flux F, std::size_t N, class Polic
                                                .photons = double(pass.emitted_in_all()),
                                                .largest_reach = largest_reach};
     announce(executor, Phase::fit);
-    return Footprints(std::span<const TracedPhoton<V, F, N>>(pilot.photons.data(), pilot.photons.size()), options,
+    return Footprints(std::span<const TracedPhoton<V, F, N, P>>(pilot.photons.data(), pilot.photons.size()), options,
                       executor);
 }
 

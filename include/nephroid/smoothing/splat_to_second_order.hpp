@@ -8,6 +8,7 @@
 #include "nephroid/smoothing/pilot.hpp"
 #include "nephroid/smoothing/second_order/curved_footprints.hpp"
 #include "nephroid/smoothing/second_order/policies.hpp"
+#include "nephroid/splat/landed_photon.hpp"
 #include "nephroid/splat/splat_in_batches.hpp"
 
 #include <array>
@@ -29,19 +30,34 @@ inline void count(const AppliedFootprint& applied, Statistics& account) {
     account.splatted_as_published += applied.as_published;
 }
 
+/// Shifts a photon and gives it its footprint. Tangents that are not the footprint's stay as they are.
+template <class Footprints, Vector3 V, Flux F, std::size_t N, class P>
+AppliedFootprint apply(const Footprints& footprints, TracedPhoton<V, F, N, P>& photon,
+                       std::array<Double3, 3>* second = nullptr) {
+    const std::array<V, N> before = photon.deposit->d_position;
+    const AppliedFootprint applied = footprints.apply(photon, second);
+    for (std::size_t i = 2; i < N; ++i)
+        if (tangent_kinds<N, P>[i] != TangentKind::footprint)
+            photon.deposit->d_position[i] = before[i];
+    return applied;
+}
+
 /// Shifts a photon, gives it the footprint or the pieces chosen, and prepares its splats.
 template <class Footprints, class Photon, class Splatter>
 void prepare_shifted(const Footprints& footprints, Photon& photon, const Splatter& splatter,
                      typename Splatter::Chunk& chunk, Statistics& account) {
     const auto& policies = splatter.policies();
     if constexpr (std::derived_from<std::remove_cvref_t<decltype(policies.order)>, CurvedFootprints>) {
+        static_assert(!has_wavelength<decltype(Photon::parameters)>,
+                      "nephroid: CurvedFootprints splat photons in pieces, and so do lights with a wavelength "
+                      "(Spectral); choose SecondOrder or FirstOrder for these");
         std::array<Double3, 3> second;
-        count(footprints.apply(photon, &second), account);
+        count(apply(footprints, photon, &second), account);
         const double moment = std::remove_cvref_t<decltype(policies.kernel)>::second_moment;
         splatter.prepare(curved(*photon.deposit, second, policies.order, moment).pieces(), chunk, account);
     } else {
-        count(footprints.apply(photon), account);
-        splatter.prepare(*photon.deposit, chunk, account);
+        count(apply(footprints, photon), account);
+        prepare_splats(splatter, *photon.deposit, photon.parameters, chunk, account);
     }
 }
 

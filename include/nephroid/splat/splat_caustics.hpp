@@ -7,12 +7,11 @@
 #include "nephroid/execution/thread_executor.hpp"
 #include "nephroid/pass/photon_pass.hpp"
 #include "nephroid/pass/traced_batch.hpp"
+#include "nephroid/splat/landed_photon.hpp"
 #include "nephroid/splat/splat_arguments.hpp"
 #include "nephroid/splat/splat_in_batches.hpp"
-#include "nephroid/transport/walk.hpp"
 
 #include <cstdint>
-#include <optional>
 
 namespace nephroid {
 
@@ -23,16 +22,16 @@ Statistics splat_to_first_order(const S& scene, const L& light, Sums<V, F, R>& s
                                 const Policies& policies, const Sequence& sequence, E& executor) {
     const auto spread = spread_of<scalar_t<V>>(pass);
     Splatter splatter(sums, policies);
-    TracedBatch<std::optional<Deposit<V, F, tangent_count_of<L>>>> batch;
+    TracedBatch<LandedPhoton<L>> batch;
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {
         Sampler<Sequence> sampler(sequence, pass.first + i);
-        return walk(scene, light.emit(sampler, spread), sampler, pass.limits, account);
+        return land(scene, light, sampler, spread, pass.limits, account);
     };
     return splat_in_batches(
         splatter, pass.count,
         [&](std::uint64_t i, auto& chunk, Statistics& account) {
-            if (const auto& deposit = batch[i])
-                splatter.prepare(*deposit, chunk, account);
+            if (const LandedPhoton<L>& photon = batch[i]; photon.deposit)
+                prepare_splats(splatter, *photon.deposit, photon.parameters, chunk, account);
         },
         executor,
         [&](std::uint64_t begin, std::uint64_t end) {
@@ -63,7 +62,7 @@ Statistics splat_to_first_order(const S& scene, const L& light, Sums<V, F, R>& s
 /// whatever the number of photons.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
-                 detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>>)
+                 detail::MustBeScene<detail::scene_for<S, L>, V, Sampler<detail::sequence_among<Arguments...>>>)
 Statistics splat_caustics(const S& scene, const L& light, Sums<V, F, R>& sums, const PhotonPass& pass,
                           Arguments&&... arguments) {
     using Policies = detail::policies_among<Published, Arguments...>;

@@ -40,18 +40,35 @@ public:
     /// piece is booked under the piece's fate.
     template <std::size_t N>
     void prepare(std::span<const Deposit<V, F, N>> pieces, Chunk& chunk, Statistics& account) const {
+        prepare_each(
+            [pieces](const auto& use) {
+                for (const Deposit<V, F, N>& piece : pieces)
+                    use(piece);
+            },
+            chunk, account);
+    }
+
+    /// The same for pieces that are made one after the other.
+    ///
+    /// @param for_each  for_each(use) calls use(deposit) for each piece
+    /// @return  the power of all pieces
+    template <class ForEach>
+    double prepare_each(const ForEach& for_each, Chunk& chunk, Statistics& account) const {
         std::array<double, fate_count> flux{};
         Fate fate = Fate::splatted;
         bool is_splatted = false;
-        for (const Deposit<V, F, N>& piece : pieces) {
+        double sum = 0;
+        for_each([&](const auto& piece) {
             const Fate fate_of_piece = make(piece, chunk, account, EveryLeaf{});
             flux[std::size_t(fate_of_piece)] += power(piece);
+            sum += power(piece);
             is_splatted = is_splatted || fate_of_piece == Fate::splatted;
             fate = is_splatted ? Fate::splatted : fate_of_piece;
-        }
+        });
         account.end(fate, 0);
         for (std::size_t i = 0; i < fate_count; ++i)
             account.lose(Fate(i), flux[i]);
+        return sum;
     }
 
     /// Adds the splats of consecutive chunks to the sums, in order.

@@ -20,7 +20,8 @@ enum class Event : unsigned char {
 /// The result of a scene's `scatter`. Your own type with these members will do as well. `eta` is only read for
 /// Event::refract. A weight that is negative or not finite in a band, and an `eta` that is not positive and finite, end
 /// the photon as Fate::invalid. A type may also have the members `medium` (which a refracted ray enters, for scenes
-/// with absorption) and `d_eta` (std::array, ∂η of each tangent, for a wavelength tangent). In a scene without glass
+/// with absorption) and `d_eta` (∂η/∂λ, for the wavelength tangents of photons that have a wavelength; or a
+/// std::array with the ∂η of each tangent, for any photon). In a scene without glass
 /// the type may leave out `eta` and declare `static constexpr bool refracts = false`; then no refraction is compiled.
 ///
 /// Whether a ray enters an object is best seen from normals that point out of it: dot(direction, normal) < 0. In a

@@ -98,7 +98,8 @@ template <class S, class H, class V, class Sampler, class Medium>
 
 /// `scene.scatter(hit, direction, sampler)` returns what the surface does with a photon that arrives along the unit
 /// direction: a `Scattering` or a type like it. `sampler.template next<T>()` draws random numbers for its choices. An
-/// optional fourth parameter gets the `medium` that the photon arrives through.
+/// optional fourth parameter gets the `medium` that the photon arrives through. A photon's parameters (its wavelength)
+/// come last, in this and in the other functions, where they take them (transport/parametric_scene.hpp).
 template <class S, class V, class Sampler>
 concept Scatters = RayTracer<S, V> && requires(const S& scene, const hit_t<S, V>& hit, const V& v, Sampler& sampler,
                                                const typename detail::medium_of<S, V>::type& medium) {

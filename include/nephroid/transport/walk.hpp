@@ -3,7 +3,9 @@
 ///        use this walk; a visitor gives them the parts that they need.
 #pragma once
 
+#include "nephroid/emission/parameters.hpp"
 #include "nephroid/transport/account.hpp"
+#include "nephroid/transport/parametric_scene.hpp"
 #include "nephroid/transport/visited_walk.hpp"
 #include "nephroid/transport/visitor.hpp"
 #include "nephroid/transport/visitor_checks.hpp"
@@ -69,6 +71,45 @@ template <class S, Vector3 V, Flux F, std::size_t N, class Sampler>
 [[nodiscard]] std::optional<Deposit<V, F, N>> walk(const S& scene, const Photon<V, F, N>& photon, Sampler& sampler,
                                                    const WalkLimits& limits, Statistics& account) {
     return walk(scene, photon, sampler, limits, account, NoVisitor());
+}
+
+/// The same for a photon with parameters, which the scene's functions get as a last argument if they take one.
+///
+/// @param photon   changed by the walk, its parameters included
+/// @param visitor  may be left out
+template <class S, Vector3 V, Flux F, std::size_t N, class P, class Sampler, class... Visitor>
+    requires(sizeof...(Visitor) <= 1)
+auto walk(const S& scene, ParametricPhoton<V, F, N, P>&& photon, Sampler& sampler, const WalkLimits& limits,
+          Statistics& account, Visitor&&... visitor) {
+    constexpr bool is_one_path = !(detail::follows_all_ways<std::remove_reference_t<Visitor>> || ...);
+    const detail::ParametricScene<S, P, is_one_path> seen(scene, photon.parameters);
+    Photon<V, F, N> walker = detail::plain(photon);
+    const auto follow = [&] {
+        return walk(seen, std::move(walker), sampler, limits, account, std::forward<Visitor>(visitor)...);
+    };
+    const auto take_back = [&] {
+        photon.position = walker.position;
+        photon.direction = walker.direction;
+        photon.flux = walker.flux;
+        photon.differential = walker.differential;
+    };
+    if constexpr (std::is_void_v<decltype(follow())>) {
+        follow();
+        take_back();
+    } else {
+        auto kept = follow();
+        take_back();
+        return kept;
+    }
+}
+
+/// The same, for a photon that the walk copies and does not change.
+template <class S, Vector3 V, Flux F, std::size_t N, class P, class Sampler, class... Visitor>
+    requires(sizeof...(Visitor) <= 1)
+auto walk(const S& scene, const ParametricPhoton<V, F, N, P>& photon, Sampler& sampler, const WalkLimits& limits,
+          Statistics& account, Visitor&&... visitor) {
+    ParametricPhoton<V, F, N, P> walker = photon;
+    return walk(scene, std::move(walker), sampler, limits, account, std::forward<Visitor>(visitor)...);
 }
 
 } // namespace nephroid

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/emission_sample.hpp"
+#include "nephroid/emission/parameters.hpp"
 #include "nephroid/smoothing/second_order/cell_contents.hpp"
 #include "nephroid/smoothing/second_order/emission_frame.hpp"
 #include "nephroid/smoothing/second_order/path_derivatives.hpp"
@@ -41,16 +42,19 @@ struct PathSample {
 };
 
 /// A photon's sample of the map, and the deposit to splat.
-template <Vector3 V, Flux F, std::size_t N>
+///
+/// @tparam P  the photon's parameters. A deposit of one with a wavelength has been moved to the spectrum's middle
+template <Vector3 V, Flux F, std::size_t N, class P = NoParameters>
 struct TracedPhoton : PathSample {
     using vector = V;
 
     std::optional<Deposit<V, F, N>> deposit; ///< nothing if it did not land
+    [[no_unique_address]] P parameters{};
 
     TracedPhoton() = default;
     TracedPhoton(const EmissionSample& drawn, const EmissionFrame& emitted, std::uint32_t path,
-                 const std::optional<Deposit<V, F, N>>& landed)
-        : PathSample{drawn, emitted, path, landed.has_value(), {}, {}}, deposit(landed) {
+                 const std::optional<Deposit<V, F, N>>& landed, const P& of_photon = {})
+        : PathSample{drawn, emitted, path, landed.has_value(), {}, {}}, deposit(landed), parameters(of_photon) {
         if (landed) {
             tangents = half_tangents(*landed);
             place = double3(landed->position);

@@ -39,8 +39,8 @@ public:
     using Options = SecondOrderOptions;
 
     /// @param pilot  photons emitted with smoothing 1, in the order of their indices
-    template <Flux F, std::size_t N, class E>
-    SecondOrderFootprints(std::span<const TracedPhoton<V, F, N>> pilot, const Options& options, E& executor)
+    template <Flux F, std::size_t N, class P, class E>
+    SecondOrderFootprints(std::span<const TracedPhoton<V, F, N, P>> pilot, const Options& options, E& executor)
         : options_(options), fields_(PathSamples(pilot), options, TaskRunner(executor)) {}
 
     /// Whether the photon's light declares a domain, so that emission coordinates show which photons are neighbours.
@@ -61,8 +61,8 @@ public:
     ///
     /// @param photon  emitted with smoothing 1; its deposit must not be empty
     /// @param second  if not null, gets the map's second derivatives (`shift_deposit`); 0 where they are not known
-    template <Flux F, std::size_t N>
-    AppliedFootprint apply(TracedPhoton<V, F, N>& photon, std::array<Double3, 3>* second = nullptr) const {
+    template <Flux F, std::size_t N, class P>
+    AppliedFootprint apply(TracedPhoton<V, F, N, P>& photon, std::array<Double3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
         const bool is_left = photon.sample.coordinates == 4 &&
                              std::binary_search(published_lamps_.begin(), published_lamps_.end(), photon.sample.light);
