@@ -105,6 +105,28 @@ TEST_CASE("rays: edges and corners get all of the light") {
                    1) < 0.09);
 }
 
+// The sheet has no thickness and the vertices lie on it, so that they are in the plane that light leaves, to rounding.
+TEST_CASE("rays: light that leaves one side of a sheet does not reach the other") {
+    const V n = normalize(V(1, 2, 3)), u = normalize(cross(n, V(1, 0, 0))), v = cross(n, u),
+            corner(0.37f, -0.2f, 0.11f);
+    const Room<float> sheet{{{corner, u, v, 0.9f}}};
+    Vertices lower, upper;
+    for (int i = 0; i < 64; ++i) {
+        const V place = corner + (float(i % 8) + 0.5f) / 8 * u + (float(i / 8) + 0.5f) / 8 * v;
+        lower.push_back({place, -n});
+        upper.push_back({place + 0.02f * n, -n}); // these look down onto it
+    }
+    const PointLight<V, float> lamp({corner + 0.5f * u + 0.5f * v + 0.8f * n, 1.0f});
+    const auto light_of = [&](const Vertices& vertices) {
+        double sum = 0;
+        for (const float e : picture(sheet, lamp, vertices, {.count = 5000, .smoothing = 10}, fixed))
+            sum += double(e);
+        return sum;
+    };
+    CHECK(light_of(lower) == 0);
+    CHECK(light_of(upper) > 10);
+}
+
 // A plate 0.2h above the floor leaves a point in its middle 1/(1 + (1/0.02)²) and less: 0.002 with half sides of 0.5.
 TEST_CASE("rays: under a plate it is dark if short rays say what stands between") {
     Room<float> room = floor_without_end();

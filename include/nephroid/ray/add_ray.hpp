@@ -56,7 +56,8 @@ void ray_weights(const RaySplat<V, F>& ray, bool checks_ends, std::uint32_t leaf
     const T bx = t::x(beam.frame.v), by = t::y(beam.frame.v), bz = t::z(beam.frame.v);
     const T mx = t::x(ray.origin_normal), my = t::y(ray.origin_normal), mz = t::z(ray.origin_normal);
     const bool leaves_surface = mx != T(0) || my != T(0) || mz != T(0);
-    const T behind = leaves_surface ? T(0) : T(-1), last = ray.depth[1];
+    // By more than rounding, so that what leaves one side of a thin sheet does not light the other.
+    const T behind = leaves_surface ? ray.rounding : T(-1), last = ray.depth[1];
     using Border = std::remove_cvref_t<decltype(policies.border)>;
     for (std::size_t i = 0; i < size; ++i) {
         const T px = x[i] - ox, py = y[i] - oy, pz = z[i] - oz;
