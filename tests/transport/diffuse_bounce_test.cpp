@@ -307,4 +307,42 @@ TEST_CASE("diffuse bounce: without it a diffuse surface is one that says deposit
     CHECK(a[Fate::direct].photons == b[Fate::direct].photons);
 }
 
+namespace {
+/// Notes with which density photons leave, and which tangents they have on their flights.
+struct FreshTangents {
+    static constexpr bool follows_bounces = true;
+    double sum_of_inverses = 0;
+    std::uint64_t started = 0, wrong = 0;
+
+    void flight(const Flight<D, double, 2>& flight) {
+        if (flight.diffuse_bounces > 0)
+            wrong += flight.tangents[0].d_direction != D(1, 2, 3) || flight.tangents[1].d_position != D(4, 5, 6);
+    }
+    void deposit(const Deposit<D, double, 2>&, const WalkedPath<>&) {}
+    PhotonDifferential<D, 2> reemitted(const D&, double density) {
+        ++started;
+        sum_of_inverses += 1 / density;
+        return {Tangent<D>{D(0), D(1, 2, 3)}, Tangent<D>{D(4, 5, 6), D(0)}};
+    }
+};
+} // namespace
+
+// The mean of 1/p over directions of density p is their solid angle, 2π. Its variance has no bound, but that of all
+// with a cosine above 0.01 is 2 π² ln 100 − 4π² = (7.2)², so that 8,000 of them give 0.08, and five of those.
+TEST_CASE("diffuse bounce: a visitor starts tangents anew, of directions with the density that it is told") {
+    const Room<double> room{box_walls<double, double>(0.5)};
+    FreshTangents visitor;
+    const PointLight<D, double> lamp({{0.4, 0.5, 0.6}, 1.0});
+    const RandomSequence random(4);
+    Statistics account;
+    for (std::uint64_t i = 0; i < 8000; ++i) {
+        Sampler<RandomSequence> sampler(random, i);
+        walk(room, lamp.emit(sampler, {8000, 1}), sampler, {}, account, visitor);
+    }
+    CHECK(visitor.wrong == 0);
+    CHECK(visitor.started == account.diffuse_bounces);
+    CHECK(std::abs(visitor.sum_of_inverses / double(visitor.started) - 2 * std::numbers::pi) < 0.4);
+    check_balance(account);
+}
+
 } // namespace nephroid::tests::diffuse_bounce_test

@@ -41,14 +41,16 @@ using sequence_among = std::remove_cvref_t<decltype(argument_of<SequenceKind>(st
 /// Calls use(policies, sequence, executor): each is the one among the arguments, or the default. The executor is held
 /// to running each task once, and the kernel to its integral: std::invalid_argument. It is passed behind one type, so
 /// that what it runs is compiled once for all executors.
-template <class DefaultPolicies, class Use, class... Arguments>
+///
+/// @tparam Kind  of policies
+template <class DefaultPolicies, class Kind = PoliciesKind, class Use, class... Arguments>
 decltype(auto) with_splat_arguments(const Use& use, Arguments&... arguments) {
     const DefaultPolicies policies{};
     const HaltonSequence sequence{};
     const SerialExecutor executor{};
     CheckedExecutor checked(argument_of<ExecutorKind>(executor, arguments...));
     const TaskRunner runner(checked);
-    const auto& chosen = argument_of<PoliciesKind>(policies, arguments...);
+    const auto& chosen = argument_of<Kind>(policies, arguments...);
     check_kernel(chosen.kernel);
     return use(chosen, argument_of<SequenceKind>(sequence, arguments...), runner);
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "nephroid/execution/counting_sort.hpp"
+#include "nephroid/execution/executor.hpp"
 #include "nephroid/splat/splat_chunk.hpp"
 
 #include <algorithm>
@@ -17,29 +18,39 @@
 namespace nephroid::detail {
 
 /// A splat, and one of the leaves that it overlaps.
-template <Vector3 V, Flux F>
-struct BinnedSplat {
-    const Splat<V, F>* splat;
+template <class S>
+struct Binned {
+    const S* splat;
     std::uint32_t leaf;
     LeafMeeting meeting;
 };
 
-/// Bins of splats, one for each group of neighbouring leaves.
-template <Vector3 V, Flux F>
-class SplatBins {
+/// Bins of splats of one kind, one for each group of neighbouring leaves.
+template <class S>
+class BinsOf {
 public:
-    using Chunk = SplatChunk<V, F>;
+    using Chunk = ChunkOf<S>;
 
     /// @param leaves  of the map's tree
-    explicit SplatBins(std::size_t leaves)
+    explicit BinsOf(std::size_t leaves)
         : group_bits_((std::max)(2u, unsigned(std::bit_width(leaves >> 13)))), groups_((leaves >> group_bits_) + 1) {}
 
-    [[nodiscard]] std::size_t groups() const { return groups_; }
-
-    /// The splats of one group, in the order of their photons. Valid until the chunks change.
-    [[nodiscard]] std::span<const BinnedSplat<V, F>> operator[](std::size_t group) const {
-        return sorted_.items_of(group);
+    /// Calls add(binned) for each pair of a splat and a leaf, leaf by leaf in the order of photons. Different leaves
+    /// come from different threads.
+    template <class E, class Add>
+    void for_each(std::span<const Chunk> chunks, E& executor, const Add& add) {
+        sort(chunks, executor);
+        // Neighbouring groups share cache lines, which slows down two threads that add to them. So a task has several
+        // groups if enough tasks are left for many threads.
+        const std::size_t groups_per_task = std::clamp<std::size_t>(groups_ / 256, 1, 4);
+        for_each_index(executor, groups_, groups_per_task, [&](std::size_t group) {
+            for (const Binned<S>& binned : sorted_.items_of(group))
+                add(binned);
+        });
     }
+
+private:
+    static constexpr std::size_t parts = 16; // with more, adding up their counts takes longer than they save
 
     /// Sorts the chunks' visits by group and keeps the photons' order.
     template <class E>
@@ -58,9 +69,6 @@ public:
         });
     }
 
-private:
-    static constexpr std::size_t parts = 16; // with more, adding up their counts takes longer than they save
-
     /// Calls work(visit, chunk) for the chunks of one part.
     template <class Work>
     void for_each_visit(std::span<const Chunk> chunks, std::size_t part, const Work& work) const {
@@ -75,7 +83,7 @@ private:
     /// thread adds to them. Larger trees have larger groups, so that there are at most 8192 of them to count visits to.
     unsigned group_bits_;
     std::size_t groups_;
-    CountingSort<BinnedSplat<V, F>> sorted_; // by group
+    CountingSort<Binned<S>> sorted_; // by group
 };
 
 } // namespace nephroid::detail

@@ -21,25 +21,24 @@ struct LeafVisit {
     LeafMeeting meeting;
 };
 
-/// Splats made by one thread, in the order of their photons. Aligned, because threads fill neighbouring chunks at the
-/// same time.
-template <Vector3 V, Flux F>
-class alignas(64) SplatChunk {
+/// Splats of one kind made by one thread, in the order of their photons. Aligned, because threads fill neighbouring
+/// chunks at the same time.
+///
+/// @tparam S  for_each_reached_leaf(map, splat, takes, visit) calls visit(leaf, meeting) for each leaf that it overlaps
+///            and for which takes(leaf) is true
+template <class S>
+class alignas(64) ChunkOf {
 public:
     /// Adds a splat if it overlaps a leaf that has vertices which may lie inside it and face it.
     ///
     /// @param takes  takes(leaf) returns whether a leaf of the map's tree is to receive light
     /// @return  whether the splat was added
-    template <class Takes = EveryLeaf>
-    bool add(const EyePathMap<V>& map, const Splat<V, F>& splat, const Takes& takes = {}) {
+    template <Vector3 V, class Takes = EveryLeaf>
+    bool add(const EyePathMap<V>& map, const S& splat, const Takes& takes = {}) {
         const std::size_t before = visits_.size();
         const auto number = std::uint32_t(splats_.size());
-        const SplatReach<V, F> reach(splat);
-        map.tree().visit_leaves(splat.box, [&](std::uint32_t leaf) {
-            if (!takes(leaf))
-                return;
-            if (const LeafMeeting meeting = reach(map.leaf(leaf)); meeting.meets)
-                visits_.push_back({leaf, number, meeting});
+        for_each_reached_leaf(map, splat, takes, [&](std::uint32_t leaf, const LeafMeeting& meeting) {
+            visits_.push_back({leaf, number, meeting});
         });
         if (visits_.size() == before)
             return false;
@@ -52,12 +51,15 @@ public:
         visits_.clear();
     }
 
-    [[nodiscard]] const std::vector<Splat<V, F>>& splats() const { return splats_; }
+    [[nodiscard]] const std::vector<S>& splats() const { return splats_; }
     [[nodiscard]] const std::vector<LeafVisit>& visits() const { return visits_; }
 
 private:
-    std::vector<Splat<V, F>> splats_;
+    std::vector<S> splats_;
     std::vector<LeafVisit> visits_;
 };
+
+template <Vector3 V, Flux F>
+using SplatChunk = ChunkOf<Splat<V, F>>;
 
 } // namespace nephroid::detail

@@ -6,6 +6,7 @@
 #include "nephroid/vector/not_unrolled.hpp"
 
 #include <array>
+#include <cstdint>
 #include <limits>
 
 namespace nephroid::detail {
@@ -65,5 +66,19 @@ private:
     std::array<T, 4> x_, y_, z_;
     V centre_, normal_;
 };
+
+/// Calls visit(leaf, meeting) for the leaves that a splat overlaps and that have vertices which may face it.
+///
+/// @param takes  takes(leaf) returns whether a leaf of the map's tree is to receive light
+template <Vector3 V, Flux F, class Takes, class Visit>
+void for_each_reached_leaf(const EyePathMap<V>& map, const Splat<V, F>& splat, const Takes& takes, const Visit& visit) {
+    const SplatReach<V, F> reach(splat);
+    map.tree().visit_leaves(splat.box, [&](std::uint32_t leaf) {
+        if (!takes(leaf))
+            return;
+        if (const LeafMeeting meeting = reach(map.leaf(leaf)); meeting.meets)
+            visit(leaf, meeting);
+    });
+}
 
 } // namespace nephroid::detail

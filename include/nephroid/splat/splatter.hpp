@@ -7,7 +7,6 @@
 #include "nephroid/splat/add_splat.hpp"
 #include "nephroid/splat/splat_bins.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -74,19 +73,12 @@ public:
     /// Adds the splats of consecutive chunks to the sums, in order.
     template <class E>
     void add(std::span<const Chunk> chunks, E& executor) {
-        bins_.sort(chunks, executor);
-        // Neighbouring groups share cache lines, which slows down two threads that add to them. So a task has several
-        // groups if enough tasks are left for many threads.
-        const std::size_t groups_per_task = std::clamp<std::size_t>(bins_.groups() / 256, 1, 4);
-        for_each_index(executor, bins_.groups(), groups_per_task, [&](std::size_t group) {
-            for (const BinnedSplat<V, F>& binned : bins_[group])
-                add(binned);
-        });
+        bins_.for_each(chunks, executor, [&](const Binned<Splat<V, F>>& binned) { add(binned); });
     }
 
 private:
     /// Adds one splat to a leaf, as the policies say if they have a way of their own.
-    void add(const BinnedSplat<V, F>& binned) {
+    void add(const Binned<Splat<V, F>>& binned) {
         if constexpr (requires { policies_.add(*binned.splat, binned.meeting, binned.leaf, *sums_); })
             policies_.add(*binned.splat, binned.meeting, binned.leaf, *sums_);
         else
@@ -108,7 +100,7 @@ private:
 
     Sums<V, F, R>* sums_;
     Policies policies_;
-    SplatBins<V, F> bins_;
+    BinsOf<Splat<V, F>> bins_;
 };
 
 } // namespace nephroid::detail

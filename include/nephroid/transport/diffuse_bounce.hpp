@@ -7,6 +7,7 @@
 #include "nephroid/transport/value_checks.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -42,19 +43,29 @@ template <Vector3 V, class H, class Sampler>
     return cosine_direction(geometric_normal, frame_about(geometric_normal), disk);
 }
 
+/// The density per steradian of a direction that `diffuse_direction` chose: cos/π.
+template <Vector3 V, class H>
+[[nodiscard]] scalar_t<V> diffuse_density(const V& direction, const H& hit) {
+    using T = scalar_t<V>;
+    if constexpr (HasShadingNormal<H, V>) // the sides of both normals are unknown here, but not that it leads away
+        if (const T cosine = abs(dot(direction, V(hit.shading_normal))); cosine > T(0))
+            return cosine / pi<T>;
+    return abs(dot(direction, V(hit.geometric_normal))) / pi<T>;
+}
+
 /// Scatters a photon at a diffuse surface. It survives with a probability of the power that the albedo leaves over the
 /// power that arrived, and then carries the latter; otherwise it is absorbed with all of it. So the photons after a
 /// bounce are as bright as before, and fewer.
 ///
 /// @param albedo  the share that the surface scatters, in [0, 1] in each band: else the photon is invalid. A flux, or
 ///                what a flux can be multiplied by, as the weights of reflections
-/// @return  whether the photon goes on; its position stays that of the hit
-template <class S, Vector3 V, Flux F, class H, class Albedo, class Sampler>
-[[nodiscard]] bool bounce_diffusely(PhotonSteps<S, V, F, 0>& steps, const H& hit, const Albedo& albedo,
+/// @return  whether the photon goes on; its position stays that of the hit, and its tangents are left as they were
+template <class S, Vector3 V, Flux F, std::size_t N, class H, class Albedo, class Sampler>
+[[nodiscard]] bool bounce_diffusely(PhotonSteps<S, V, F, N>& steps, const H& hit, const Albedo& albedo,
                                     Sampler& sampler, Statistics& account) {
     using T = scalar_t<V>;
     constexpr double most = 1.001; // more than that is no rounding
-    Photon<V, F, 0> photon = steps.photon();
+    Photon<V, F, N> photon = steps.photon();
     const double arrived = steps.power(photon.flux);
     if (!(arrived > 0)) // from a black mirror, and no albedo is a share of nothing
         return steps.end(arrived == 0 ? Fate::absorbed : Fate::invalid);

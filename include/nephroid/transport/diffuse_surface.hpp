@@ -69,7 +69,14 @@ private:
         if (scattering.event == Event::deposit)
             return steps_.end(Fate::absorbed);
         ++account_.diffuse_events;
-        return bounce_diffusely(steps_, hit, scattering.weight, sampler, account_) && counts_bounce();
+        if (!bounce_diffusely(steps_, hit, scattering.weight, sampler, account_))
+            return false;
+        if constexpr (N > 0) {
+            Photon<V, F, N> onwards = steps_.photon();
+            onwards.differential = reporter_.reemitted(onwards.direction, diffuse_density(onwards.direction, hit));
+            steps_.continue_as(onwards, steps_.medium());
+        }
+        return counts_bounce();
     }
 
     /// Goes on from a diffuse surface with the photon that the visitor returned.

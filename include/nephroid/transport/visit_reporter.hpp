@@ -57,6 +57,11 @@ public:
     /// Calls the visitor's `deposit`, and returns its result.
     decltype(auto) deposit(const Deposit<V, F, N>& deposit) { return visitor_.deposit(deposit, path_); }
 
+    /// The tangents of a photon that a diffuse surface sends on, if the visitor follows bounces with tangents.
+    [[nodiscard]] PhotonDifferential<V, N> reemitted(const V& direction, const T& density) {
+        return visitor_.reemitted(direction, density);
+    }
+
     /// The photon is about to leave a surface, with the direction of its next ray.
     void departure(const Steps& steps, const H& hit) {
         if constexpr (reports_flights) // the normal on the side that the photon leaves to

@@ -30,7 +30,9 @@ namespace nephroid {
 /// - `static constexpr bool follows_bounces = true`: the photon goes on from diffuse surfaces (Event::diffuse) in a
 ///   random direction, each as likely as it is bright, and ends there with a probability of 1 − albedo. `deposit` is
 ///   called at each of them and returns void. The walk books all flux, also what surfaces receive
-///   (`Statistics::received`). For photons without tangents (`WithoutTangents`)
+///   (`Statistics::received`). For photons without tangents (`WithoutTangents`), or with the next member
+/// - `reemitted(direction, density)`: returns the tangents, PhotonDifferential<V, N>, of a photon that a diffuse
+///   surface sends on in a random direction of this density per steradian. The old ones end there
 /// - `static constexpr bool follows_all_ways = true`: at each surface the photon takes all ways that the scene's
 ///   `scatter_all` returns, one after the other, in the scene's order, each to its end. There is no roulette then, and
 ///   a photon may have many deposits, or none
@@ -103,6 +105,11 @@ template <class Visitor, class V, class F, std::size_t N>
 concept VisitsDeposits = requires(Visitor& visitor, const Deposit<V, F, N>& deposit,
                                   const WalkedPath<trail_t<Visitor>>& path) {
     visitor.deposit(deposit, path);
+};
+
+template <class Visitor, class V, std::size_t N>
+concept StartsTangents = requires(Visitor& visitor, const V& direction, scalar_t<V> density) {
+    { visitor.reemitted(direction, density) } -> std::convertible_to<PhotonDifferential<V, N>>;
 };
 
 template <class Visitor, class V, class F, std::size_t N>

@@ -57,8 +57,9 @@ consteval bool fits_walk() {
     constexpr bool deposit_fits = deposits || !NamesDeposit<Visitor>;
     constexpr bool result_fits =
         !deposits || EndsPhotonsAtDeposits<Visitor, V, F, N> || SendsPhotonsOn<Visitor, V, F, N>;
-    constexpr bool bounces_fit =
-        !follows_bounces<Visitor> || (N == 0 && EndsPhotonsAtDeposits<Visitor, V, F, N> && !follows_all_ways<Visitor>);
+    constexpr bool bounces_fit = !follows_bounces<Visitor> ||
+                                 ((N == 0 || StartsTangents<Visitor, V, N>)&&EndsPhotonsAtDeposits<Visitor, V, F, N> &&
+                                  !follows_all_ways<Visitor>);
     constexpr bool ways_fit = !follows_all_ways<Visitor> || (deposits && ScattersDeterministically<S, V>);
     return has_any && flight_fits && meet_fits && deposit_fits && result_fits && bounces_fit && ways_fit &&
            TrailOver<trail_t<Visitor>, H>;
@@ -84,9 +85,11 @@ consteval bool explain_visitor() {
     static_assert(!deposits || EndsPhotonsAtDeposits<Visitor, V, F, N> || SendsPhotonsOn<Visitor, V, F, N>,
                   "nephroid::walk: the visitor's `deposit` must return nothing, or std::optional<Photon<V, F, N>>: "
                   "what goes on from there (transport/visitor.hpp)");
-    static_assert(!follows_bounces<Visitor> || N == 0,
-                  "nephroid::walk: a visitor that follows bounces walks photons without tangents: emit them from "
-                  "WithoutTangents(light) (emission/without_tangents.hpp)");
+    static_assert(
+        !follows_bounces<Visitor> || N == 0 || StartsTangents<Visitor, V, N>,
+        "nephroid::walk: a visitor that follows bounces walks photons without tangents: emit them from "
+        "WithoutTangents(light) (emission/without_tangents.hpp), or give the visitor reemitted(direction, density) "
+        "-> PhotonDifferential<V, N> (transport/visitor.hpp)");
     static_assert(!follows_bounces<Visitor> || EndsPhotonsAtDeposits<Visitor, V, F, N>,
                   "nephroid::walk: a visitor that follows bounces must have deposit(deposit, path), which returns "
                   "nothing, as the walk itself sends the photon on (transport/visitor.hpp)");
