@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// @file  Measures the library's claims against exact results: `study compare`, `study smoothing`, `study relax`. Each
-///        prints tables, and leaves figures, plots, pictures and a page with all of them in a folder.
+/// @file  Measures the library's claims against exact results: `study compare`, `study smoothing`, `study relax`,
+///        which leave figures, plots, pictures and a page with all of them in a folder; and `study image`.
 #include "common/study/compare/command.hpp"
+#include "common/study/image/command.hpp"
 #include "common/study/relax/command.hpp"
 #include "common/study/smoothing/command.hpp"
 
@@ -30,9 +31,11 @@ void run(int argc, const char* const* argv) {
     CLI::App& smoothing_app =
         *app.add_subcommand("smoothing", "Footprints chosen photon by photon, against the best smoothing for all");
     CLI::App& relax_app = *app.add_subcommand("relax", "A photon map relaxed into blue noise: before and after");
+    CLI::App& image_app = *app.add_subcommand("image", "Photons on a grid, drawn onto a raster: error and flicker");
     const study::compare::Command compare(compare_app);
     const study::smoothing::Command smoothing(smoothing_app);
     const study::relax::Command relax(relax_app);
+    const study::image::Command image(image_app);
     if (!parse(app, argc, argv))
         return;
     const std::string command = command_line(argc, argv);
@@ -40,6 +43,8 @@ void run(int argc, const char* const* argv) {
         compare.run(command);
     if (smoothing_app.parsed())
         smoothing.run(command);
+    if (image_app.parsed())
+        image.run();
     if (relax_app.parsed())
         relax.run(command);
 }

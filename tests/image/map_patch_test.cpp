@@ -72,8 +72,8 @@ TEST_CASE("map patch: the flux of flat, bent, folded and collapsed patches is al
 }
 
 TEST_CASE("map patch: a fold's light lies where its map puts it") {
-    // x = 0.2 + 0.9 u (1 − u) with u uniform: its mean is 0.2 + 0.15. A texel's light counts at its middle, which is off
-    // by up to half a texel, 1/32, but on average over the smooth part by nothing.
+    // x = 0.2 + 0.9 u (1 − u) with u uniform: its mean is 0.2 + 0.15. A texel's light counts at its
+    // middle, which is off by up to half a texel, 1/32, but on average over the smooth part by nothing.
     const Moments m = moments(patch_of([](double u, double v) {
         return Double3{0.2 + 0.9 * u * (1 - u), 0.3 + 0.4 * v, 0};
     }));

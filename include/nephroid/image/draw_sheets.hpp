@@ -102,6 +102,7 @@ private:
                 patch.flux = static_cast<F>(
                     (c[0][0]->density + c[0][1]->density + (c[1][0]->density + c[1][1]->density)) * (T(0.25) * area));
                 row.push_back(map_patch(patch, how_.tessellation, map_.chart()));
+                row.back().turn = i + j;
             }
     }
 

@@ -24,13 +24,14 @@ struct MapPatch {
     ChartVector middle, normal; ///< of the whole patch
     double sag = 0;             ///< how far it leaves its plane
     unsigned quads = 1;         ///< along each side
+    std::size_t turn = 0;       ///< odd: the first quad's diagonal is the other one, so that neighbours' alternate
     RasterBox box;
 };
 
 /// Where a patch lies on the raster; its box is empty if the chart does not see it whole or sees it edge-on.
 template <Vector3 V, Flux F, class C>
 [[nodiscard]] MapPatch<V, F> map_patch(const LitPatch<V, F>& patch, const Tessellation& rule, const C& chart) {
-    MapPatch<V, F> made{patch, {}, {}, PatchSag(patch).sag, 1, {}};
+    MapPatch<V, F> made{patch, {}, {}, PatchSag(patch).sag, 1, 0, {}};
     const auto& c = patch.corners;
     RasterBox box;
     for (std::size_t i = 0; i < 2; ++i)
@@ -85,7 +86,7 @@ public:
         for (std::size_t j = 0; j < m; ++j)
             for (std::size_t i = 0; i < m; ++i) {
                 const std::size_t a = j * (m + 1) + i, b = a + 1, d = a + m + 1, c = d + 1;
-                if ((i + j) % 2 == 0)
+                if ((i + j + made.turn) % 2 == 0)
                     add(a, b, c, share), add(a, c, d, share);
                 else
                     add(a, b, d, share), add(b, c, d, share);

@@ -16,7 +16,7 @@
 namespace nephroid {
 
 namespace detail {
-/// x = (row_x · d + offset_x) / w, y likewise, with d from the origin and w = row_w · d + offset_w; depth = row_z · d.
+/// x = (row_x · d + offset_x) / w, y likewise, with d from the origin; w = row_w · d + offset_w; depth = row_z · d.
 class ProjectedChart {
 public:
     [[nodiscard]] std::size_t columns() const { return columns_; }
@@ -107,7 +107,7 @@ public:
         : ProjectedChart(columns, rows, "PlaneChart"), repeats_(repeats) {
         using namespace detail;
         const Double3 normal = unit_or_zero(plain_cross(double3(edge_u), double3(edge_v)));
-        require(length2(normal) > 0.5 && all_finite(double3(corner)), "PlaneChart", "edge_u × edge_v", text_of(normal));
+        require(length2(normal) > 0.5 && all_finite(double3(corner)), "PlaneChart", "the normal", text_of(normal));
         set_parallel(double3(corner), double3(edge_u), double3(edge_v), -1.0 * normal);
     }
 

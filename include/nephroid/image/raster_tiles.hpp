@@ -53,7 +53,7 @@ public:
 
     /// Draws things into all the tiles that their boxes overlap.
     ///
-    /// @param draw  draw(number, window) -> whether any light arrived. Called from several threads, of one tile from one
+    /// @param draw  draw(number, window) -> whether any light arrived. Called from several threads, one for each tile
     /// @return  of each thing whether any of its light arrived
     template <class Draw, class E>
     [[nodiscard]] std::vector<char> draw(std::span<const RasterBox> boxes, const Draw& draw, E& executor) {

@@ -56,7 +56,7 @@ public:
             points_[std::size_t(p.y) * columns_ + std::size_t(p.x)] += amount;
     }
 
-    /// Calls visit(column, row, amount) for each texel that got anything. A running sum leaves about 10⁻¹⁶ of a row's
+    /// Calls visit(column, row, amount) for each texel that got anything. A running sum leaves 10⁻¹⁶ of a row's
     /// largest edge behind; that is no light.
     template <class Visit>
     void visit(const Visit& visit) const {
