@@ -72,7 +72,8 @@ TEST_CASE("study image: a thin lens in focus is a point, and beyond it as large 
     CHECK(lens.picture(scene, 2) == before);
     scene.lenses.assign(scene.photons.size(), {1, 1});
     const auto points = lens.picture(scene, 2);
-    // What is left is the pixel filter's disk of radius² 2/3 texels. Photons lie between four texels each, whose middles
+    // What is left is the pixel filter's disk of radius² 2/3 texels. Photons lie between four texels each, with
+    // middles
     // are sqrt(1/2) away: 4 texels a photon times the biweight at 3/4, over the disk's square.
     const double expected = 4 * 3 / pi<double> * square(0.25) / (2.0 / 3);
     for (const float e : points)

@@ -90,7 +90,7 @@ struct Level {
 }
 
 /// Splats of four sizes, of which each pixel takes the smallest that has enough photons [Wyman and Dachsbacher 2008,
-/// 4.1]. The paper names no blend: here finer pictures count with t²(3 − 2t), t = (count − 8)/8, and only where they
+/// 4.1]. No blend is named: here finer pictures count with t²(3 − 2t), t = (count − 8)/8, and only where they
 /// are brighter; the coarsest takes the rest. Keeps no energy, as it chooses between pictures that do.
 [[nodiscard]] std::vector<float> multi_resolution(const GridScene& scene, double s) {
     // The paper's radii are for about a photon a texel.
