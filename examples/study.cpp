@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// @file  Measures the library's claims against exact results: `study compare`, `study smoothing`, `study relax`,
-///        `study spectrum`. Each prints tables, and leaves figures, plots, pictures and a page with all of them in a
-///        folder.
+///        `study spectrum`, which leave figures, plots, pictures and a page with all of them in a folder; and `study
+///        image`.
 #include "common/study/compare/command.hpp"
+#include "common/study/image/command.hpp"
 #include "common/study/relax/command.hpp"
 #include "common/study/smoothing/command.hpp"
 #include "common/study/spectrum/command.hpp"
@@ -34,10 +35,12 @@ void run(int argc, const char* const* argv) {
     CLI::App& relax_app = *app.add_subcommand("relax", "A photon map relaxed into blue noise: before and after");
     CLI::App& spectrum_app =
         *app.add_subcommand("spectrum", "Colours by tangents, against brute force, three indices and none");
+    CLI::App& image_app = *app.add_subcommand("image", "Photons on a grid, drawn onto a raster: error and flicker");
     const study::compare::Command compare(compare_app);
     const study::smoothing::Command smoothing(smoothing_app);
     const study::relax::Command relax(relax_app);
     const study::spectrum::Command spectrum(spectrum_app);
+    const study::image::Command image(image_app);
     if (!parse(app, argc, argv))
         return;
     const std::string command = command_line(argc, argv);
@@ -45,6 +48,8 @@ void run(int argc, const char* const* argv) {
         compare.run(command);
     if (smoothing_app.parsed())
         smoothing.run(command);
+    if (image_app.parsed())
+        image.run();
     if (relax_app.parsed())
         relax.run(command);
     if (spectrum_app.parsed())

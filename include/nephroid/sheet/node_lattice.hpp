@@ -73,6 +73,13 @@ public:
     }
 
     [[nodiscard]] std::size_t size() const { return ranges_.size(); }
+    /// Memory of the nodes and their ends.
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t ends = 0;
+        for (const std::vector<Node>& pool : pools_)
+            ends += pool.size();
+        return ranges_.size() * sizeof(Range) + ends * sizeof(Node);
+    }
 
 private:
     static constexpr std::int64_t width = 16;
