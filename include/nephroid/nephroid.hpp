@@ -37,6 +37,7 @@
 #include "nephroid/quality/spectrum.hpp"
 #include "nephroid/quality/ssim.hpp"
 #include "nephroid/ray/splat_rays.hpp"
+#include "nephroid/receiver/checkpoint.hpp"
 #include "nephroid/receiver/eye_path_map.hpp"
 #include "nephroid/receiver/footprints_from_film.hpp"
 #include "nephroid/relaxation/detect_features.hpp"

@@ -94,17 +94,17 @@ template <class V>
 ///
 /// @return  the number of vertices whose coverage was bounded
 template <class V, class F, class R, class E>
-std::uint64_t add_over_coverage(const Sums<V, F, R>& disks, double radius, const FreeDistances<V>& distances,
-                                Sums<V, F, R>& sums, E& executor) {
+std::uint64_t add_over_coverage(const Sums<V, F, response_within<R>>& disks, double radius,
+                                const FreeDistances<V>& distances, Sums<V, F, R>& sums, E& executor) {
     using T = scalar_t<V>;
     const auto leaves = sums.map().tree().leaves();
     std::vector<std::uint64_t> bounded(leaves.size());
     for_each_index(executor, leaves.size(), 16, [&](std::size_t leaf) {
         const std::span<const F> from = disks.of_leaf(std::uint32_t(leaf));
-        const std::span<F> to = sums.of_leaf(std::uint32_t(leaf));
-        for (std::size_t i = 0; i < to.size(); ++i) {
-            const T coverage = bounded_coverage(distances, leaves[leaf].first + i, T(radius), bounded[leaf]);
-            to[i] = to[i] + from[i] * (T(1) / coverage);
+        for (std::size_t i = 0; i < from.size(); ++i) {
+            const std::size_t slot = leaves[leaf].first + i;
+            const T coverage = bounded_coverage(distances, slot, T(radius), bounded[leaf]);
+            sums.add(slot, from[i] * (T(1) / coverage));
         }
     });
     std::uint64_t sum = 0;

@@ -116,7 +116,7 @@ template <class S, class L, class V, class F, class R, class Sequence, class E>
 [[nodiscard]] GlobalSplats splat_disks(const S& scene, const L& lamp, Sums<V, F, R>& sums,
                                        const FreeDistances<V>& distances, const PhotonPass& pass, ChosenRadius chosen,
                                        const Sequence& sequence, E& executor) {
-    Sums<V, F, R> disks(sums.map(), sums.response());
+    Sums<V, F, response_within<R>> disks(sums.map(), sums.response());
     Splatter splatter(disks, disks_of(chosen.radius, distances));
     IndirectPhotons photons(scene, lamp, pass, sequence);
     Statistics traced;

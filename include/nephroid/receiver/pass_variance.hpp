@@ -103,7 +103,7 @@ public:
         const auto leaves = map_->tree().leaves();
         for (std::uint32_t leaf = 0; leaf < leaves.size(); ++leaf)
             for (std::size_t i = 0; i < leaves[leaf].size; ++i)
-                add(by_slot_[leaves[leaf].first + i], flux_traits<F>::power(sums.of_leaf(leaf)[i]));
+                add(by_slot_[leaves[leaf].first + i], flux_traits<F>::power(sums.at(leaves[leaf].first + i)));
     }
 
     [[nodiscard]] std::uint64_t passes() const { return passes_; }

@@ -158,16 +158,9 @@ private:
             for (const BinnedBlock& binned : bins_[group]) {
                 const SheetPieces<V, F>& pieces = tiles[binned.tile].pieces;
                 const SheetBlock<V, F>& block = pieces.blocks[binned.block];
-                const std::uint32_t first = sums_.map().tree().leaves()[binned.leaf].first;
-                const std::span<F> sums = sums_.of_leaf(binned.leaf);
                 const F flux = static_cast<F>(block.flux * T(weight_));
                 add_to_leaf(pieces, block, pixels_, binned.leaf, [&](std::uint32_t slot, T irradiance) {
-                    F& sum = sums[slot - first];
-                    if constexpr (std::is_same_v<R, Irradiance>)
-                        sum = sum + flux * irradiance;
-                    else
-                        sum = sum + flux * irradiance *
-                                        sums_.response()(std::size_t(sums_.map().tree().index(slot)), block.direction);
+                    sums_.add(slot, sums_.responded(slot, flux * irradiance, block.direction));
                 });
             }
         });

@@ -60,8 +60,8 @@ public:
 private:
     static constexpr std::size_t vertices = std::size_t(1) << 15;
 
-    Sums<V, F, R> sums_;
-    Splatter<V, F, R, Policies> splatter_;
+    Sums<V, F, response_within<R>> sums_; // of flux: they are only compared
+    Splatter<V, F, response_within<R>, Policies> splatter_;
     LeafSample sample_;
     std::size_t per_quarter_;
     double photons_per_deposit_; ///< emitted by the whole pass, over the photons at hand

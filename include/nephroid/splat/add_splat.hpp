@@ -54,12 +54,17 @@ void add_splat(const Splat<V, F>& splat, const LeafMeeting& meeting, std::uint32
             weight[i] = keep_if(mx[i] * px + my[i] * py + mz[i] * pz > T(0), weight[i]);
     }
 
-    F* const sum = sums.of_leaf(leaf).data();
-    if constexpr (std::is_same_v<R, Irradiance>) {
+    if constexpr (!Sums<V, F, R>::is_in_flux) {
+        for (std::size_t i = 0; i < count; ++i)
+            if (weight[i] > T(0))
+                sums.add(first + i, sums.responded(first + i, splat.peak * weight[i], splat.direction));
+    } else if constexpr (std::is_same_v<R, Irradiance>) {
+        F* const sum = sums.of_leaf(leaf).data();
         const F peak = splat.peak;
         for (std::size_t i = 0; i < size; ++i)
             sum[i] = sum[i] + peak * weight[i];
     } else {
+        F* const sum = sums.of_leaf(leaf).data();
         for (std::size_t i = 0; i < count; ++i)
             if (weight[i] > T(0))
                 sum[i] = sum[i] + splat.peak * weight[i] *
