@@ -73,7 +73,7 @@ struct Level {
     const auto columns = std::int64_t(scene.chart.columns()), rows = std::int64_t(scene.chart.rows());
     const auto wrap = [](std::int64_t i, std::int64_t n) { return (i % n + n) % n; };
     for (const auto& photon : scene.photons) {
-        const auto place = scene.chart.place(detail::double3(photon.position));
+        const auto place = scene.chart.place(nephroid::detail::double3(photon.position));
         if (!place)
             continue;
         const auto reach = std::int64_t(std::ceil(radius));

@@ -37,7 +37,7 @@ struct SpectralDomain<L> {
 
 /// A flux whose bands can be read and written one by one.
 template <class F>
-concept HasBands = requires(F flux, std::size_t band) {
+concept IndexesBands = requires(F flux, std::size_t band) {
     {double(flux[int(band)])};
     flux[int(band)] = flux[int(band)];
 };
@@ -45,7 +45,7 @@ concept HasBands = requires(F flux, std::size_t band) {
 template <class L, class Spectrum>
 consteval bool explain_spectral() {
     if constexpr (Light<L>)
-        static_assert(HasBands<typename L::flux_type>,
+        static_assert(IndexesBands<typename L::flux_type>,
                       "nephroid::Spectral: the flux of the light has no bands f[i] to read and write; nephroid::Bands "
                       "has them (emission/spectrum/bands.hpp)");
     else
@@ -57,7 +57,7 @@ consteval bool explain_spectral() {
 /// A light and a spectrum for `Spectral`, or an error that says why not.
 template <class L, class Spectrum>
 concept MustMakeSpectral =
-    (Light<L> && DividesSpectrum<Spectrum> && HasBands<typename L::flux_type>) || explain_spectral<L, Spectrum>();
+    (Light<L> && DividesSpectrum<Spectrum> && IndexesBands<typename L::flux_type>) || explain_spectral<L, Spectrum>();
 } // namespace detail
 
 /// Emits a light's photons, each with a wavelength drawn from a spectrum and with a tangent by it. A photon carries the
