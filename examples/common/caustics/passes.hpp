@@ -35,7 +35,8 @@ struct PassedLayer {
 };
 
 /// Traces passes, one after another. At least four of several, as fewer say too little of how they differ; no more than
-/// four if all of them are dark.
+/// four if all of them are dark, and than 64 if a single one is not: its noise stays the whole of its light however
+/// many dark ones follow.
 ///
 /// @param error      of the mean of passes, as a share of it: they go on until the noise is below; nothing: one pass
 /// @param photons    of each pass
@@ -46,10 +47,11 @@ template <class Trace, class PixelsOf>
 [[nodiscard]] auto trace_passes(const std::optional<double>& error, std::uint64_t photons, const Trace& trace,
                                 const PixelsOf& pixels_of) {
     using Pixel = typename std::invoke_result_t<const PixelsOf&>::value_type;
-    constexpr std::uint64_t least = 4;
+    constexpr std::uint64_t least = 4, most_of_one_lit = 64;
     PassedLayer<Pixel> layer;
     PassReport& report = layer.report;
     std::vector<PassMoments> moments;
+    std::uint64_t lit_passes = 0;
     // Adds a pass, or a part of one, to the mean.
     const auto add = [&](const std::vector<Pixel>& pass, double part) {
         if (layer.pixels.empty())
@@ -62,12 +64,22 @@ template <class Trace, class PixelsOf>
     const auto count = [&](const std::vector<Pixel>& pass) {
         moments.resize(pass.size());
         RelativeNoise noise;
+        bool is_lit = false;
         for (std::size_t i = 0; i < pass.size(); ++i) {
-            moments[i].add(flux_traits<Pixel>::power(pass[i]), report.passes);
+            const double power = flux_traits<Pixel>::power(pass[i]);
+            is_lit = is_lit || power != 0;
+            moments[i].add(power, report.passes);
             noise.add(moments[i].mean, moments[i].variance_of_mean(report.passes));
         }
+        lit_passes += is_lit ? 1 : 0;
         if (report.passes > 1)
             report.noise = noise.value();
+    };
+    const auto must_go_on = [&] {
+        if (report.passes < least)
+            return true;
+        const bool is_doubtful = lit_passes == 1 && report.passes >= most_of_one_lit;
+        return std::isfinite(*report.noise) && *report.noise > *error && !is_doubtful;
     };
     do {
         Progress bar(photons);
@@ -84,8 +96,7 @@ template <class Trace, class PixelsOf>
             if (error)
                 count(pass);
         }
-    } while (error && !report.is_interrupted &&
-             (report.passes < least || (std::isfinite(*report.noise) && *report.noise > *error)));
+    } while (error && !report.is_interrupted && must_go_on());
     if (report.passes > 1)
         for (const PassMoments& pixel : moments)
             layer.variance.push_back(float(pixel.variance_of_mean(report.passes)));
