@@ -97,7 +97,7 @@ public:
         if (m.follow == Follow::refraction)
             return reflected < T(1) ? refracted(hit, at, T(1) - reflected) : Bounce<T, F>{};
         if (reflected >= T(1) || (reflected > T(0) && sampler.template next<T>() < reflected))
-            return {Event::reflect, grey<F>(1)};
+            return reflected_by(at, T(1));
         return refracted(hit, at, T(1));
     }
 
@@ -131,7 +131,7 @@ public:
         if (reflected < T(1))
             ways.add(refracted(hit, at, T(1) - reflected));
         if (reflected > T(0) && m.follow != Follow::refraction)
-            ways.add({Event::reflect, grey<F>(double(reflected))});
+            ways.add(reflected_by(at, reflected));
         return ways;
     }
 
@@ -190,6 +190,13 @@ public:
         return {Event::refract, color(hit) * grey<F>(double(share)), at.eta, at.beyond, at.d_eta};
     }
 
+    /// A reflection by a dielectric. It names the indices: photons with a wavelength note for which others it exists.
+    ///
+    /// @param share  of the light, carried by the reflected ray
+    [[nodiscard]] Bounce<T, F> reflected_by(const Interface<T>& at, T share) const {
+        return {Event::reflect, grey<F>(double(share)), at.eta, Medium{}, at.d_eta};
+    }
+
     /// The share of the light that is left after a flight through a medium, by band.
     [[nodiscard]] F transmittance(const Medium& through, T distance) const {
         if (through.here() < 0)
@@ -206,7 +213,7 @@ private:
         Ways<Bounce<T, F>, 4> ways;
         const auto add = [&](const Bounce<T, F>& way, T part) {
             if (part > T(0))
-                ways.add({way.event, way.weight * grey<F>(double(part)), way.eta, way.medium});
+                ways.add({way.event, way.weight * grey<F>(double(part)), way.eta, way.medium, way.d_eta});
         };
         const auto add_diffuse = [&](T part) {
             if (m.is_diffuse())
@@ -224,7 +231,7 @@ private:
             add(m.surface == Surface::window ? Bounce<T, F>{Event::refract, color(hit), T(1), through}
                                              : refracted(hit, at, T(1)),
                 passed);
-            add({Event::reflect, grey<F>(1)}, share.reflected);
+            add(reflected_by(at, T(1)), share.reflected);
             add_diffuse(rest - passed);
         }
         return ways;
@@ -248,7 +255,7 @@ private:
             return {Event::pass, grey<F>(1), T(1), at.beyond};
         left -= share.reflected;
         if (left < T(0))
-            return {Event::reflect, grey<F>(1)};
+            return reflected_by(at, T(1));
         left -= share.passed;
         if (left < T(0) || !m.is_diffuse())
             return m.surface == Surface::window ? Bounce<T, F>{Event::refract, color(hit), T(1), through}

@@ -62,17 +62,27 @@ TEST_CASE("draw splats: a pattern that repeats gets back what leaves it") {
     CHECK(map.texel(32, 32).irradiance == 0);
 }
 
+TEST_CASE("draw splats: light above a pattern that repeats is left out over each of its tiles") {
+    for (const double x : {0.5, 1.5, -3.5}) {
+        FloorMap map = floor_map(64, true);
+        const Statistics account =
+            draw_splats(std::vector{photon({x, 0.5, 5}, {0.2, 0, 0}, {0, 0.2, 0})}, map, {.smoothing = 1});
+        CHECK(account[Fate::unseen].photons == 1);
+        CHECK(map.flux() == 0);
+    }
+}
+
 TEST_CASE("draw splats: all photons are counted, and none makes a texel that is no number") {
     const double inf = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
     FloorMap map = floor_map();
     const Vec3 a(0.1, 0, 0), b(0, 0.1, 0);
-    const std::vector<Photon> photons{photon({0.5, 0.5, 0}, a, b), photon({0.5, 0.5, 0.4}, a, b),
-                                      photon({7, 0.5, 0}, a, b), photon({nan, 0.5, 0}, a, b),
-                                      photon({0.5, 0.5, 0}, {inf, 0, 0}, b)};
+    const std::vector<Photon> photons{
+        photon({0.5, 0.5, 0}, a, b), photon({0.5, 0.5, 0.4}, a, b),         photon({7, 0.5, 0}, a, b),
+        photon({nan, 0.5, 0}, a, b), photon({0.5, 0.5, 0}, {inf, 0, 0}, b), photon({0.5, 0.5, 0}, a, b, nan)};
     const Statistics account = draw_splats(photons, map, {.smoothing = 1});
     CHECK(account[Fate::splatted].photons == 1);
     CHECK(account[Fate::unseen].photons == 2); // above the floor, beside it
-    CHECK(account[Fate::invalid].photons == 2);
+    CHECK(account[Fate::invalid].photons == 3);
     CHECK(account.accounted_flux() == 5);
     CHECK(map.flux() == doctest::Approx(1).epsilon(1e-2));
     FloorMap empty = floor_map();

@@ -13,7 +13,7 @@ study=$1/study
 for title in "Error in 16 bands" "Error in three colours" "Walks for equal error" "Seconds"; do
     grep -q "$title" tables.md || fail "no table '$title': $(cat tables.md)"
 done
-! grep -q "nan\|inf" tables.md || fail "a figure is missing: $(cat tables.md)"
+! grep -q -e nan -e inf tables.md || fail "a figure is missing: $(cat tables.md)"
 [ -s out/report.html ] || fail "no page"
 # With 1000 walks the tangent has less error than brute force with four times as many, in bands and in colours.
 awk -F'|' '/Error in/ { table = $0 } $2 ~ /^ *1000 *$/ && !(table in few) { few[table] = $3 }

@@ -253,6 +253,10 @@ TEST_CASE("rays: a response makes radiance of the flights' directions") {
     splat_rays(room, lamp, twice, {.count = 500, .smoothing = 20});
     std::vector<float> expected(vertices.size());
     plain.for_each([&](std::size_t vertex, float e) { expected[vertex] = e; });
+    auto in_double = nephroid::sums<float>(map, InDouble{});
+    splat_rays(room, lamp, in_double, {.count = 500, .smoothing = 20});
+    in_double.for_each(
+        [&](std::size_t vertex, float e) { CHECK(e == doctest::Approx(expected[vertex]).epsilon(1e-4)); });
     twice.for_each(
         [&](std::size_t vertex, float e) { CHECK(e == doctest::Approx(2 * expected[vertex]).epsilon(1e-4)); });
 }

@@ -113,6 +113,11 @@ TEST_CASE("checkpoint: of another scene, receiver, flux or accumulator is refuse
     vertices.back().position.x += 0.001f;
     const auto moved = map_of(vertices);
     refuses(nephroid::sums<float>(moved), scene, "of another receiver");
+    vertices = written.vertices;
+    for (auto& vertex : vertices)
+        vertex.position.x += 16;
+    const auto all_moved = map_of(vertices); // by a power of two, so that nothing is rounded
+    refuses(nephroid::sums<float>(all_moved), scene, "of another receiver");
     auto whole = nephroid::sums<float>(written.map, InWholeNumbers(1));
     auto brighter = nephroid::sums<float>(written.map, InWholeNumbers(4));
     Statistics account;

@@ -101,6 +101,19 @@ TEST_CASE("band groups: every band is in one group, and they are as many as the 
     }
 }
 
+TEST_CASE("spectral splat: bands that nothing has parted are one splat") {
+    const auto vertices = floor(16);
+    const EyePathMap<V> map(vertices, &Vertex<V>::position, &Vertex<V>::normal);
+    auto sums = nephroid::sums<Flux16>(map);
+    const detail::Splatter splatter(sums, Published{});
+    detail::SplatChunk<V, Flux16> chunk;
+    Statistics account;
+    const Deposit<V, Flux16, 3> deposit{
+        {0, 0.1, 0}, {0, 0, 1}, {0, 0, -1}, Flux16(1), {V{0.12, 0, 0}, V{0, 0.16, 0}, V{0, 0, 0}}};
+    detail::prepare_bands(splatter, deposit, Hero{550, {}}, chunk, account);
+    CHECK(chunk.splats().size() == 1);
+}
+
 // The group's middle is at most half a group from the band, a tenth of the reach. Vertices 1/128 apart: the kernel's
 // sums are exact to 10⁻³ of its width.
 TEST_CASE("spectral splat: each band lies where the tangent says, as wide as the footprint and the band are together") {

@@ -115,6 +115,8 @@ void refuse_contradictions(const Options& options) {
         throw UsageError("--curved: splats photons in pieces, and so does --bands; leave one of them out");
     if (options.bands && is_builtin(options.scene))
         throw UsageError("--bands: is for files and rooms; the glass of a built-in case does not disperse");
+    if (options.bands && options.cross_validated)
+        throw UsageError("--smoothing: cross-validated is not for --bands; give s, or leave it to auto");
     if (options.bands && options.error)
         throw UsageError("--bands: makes one pass; leave --error out");
     if (options.samples < 1 || options.samples > 4096)

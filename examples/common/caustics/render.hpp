@@ -78,9 +78,10 @@ auto splat_caustics_timed(const S& scene, const L& light, const EyePathMap<V>& m
                 options, kernel, repeats, [&](const auto& policies) {
                     TimingExecutor timing(threads);
                     auto sums = nephroid::sums<F>(map);
-                    if (options.cross_validated)
-                        pass.smoothing =
-                            cross_validated_smoothing(scene, light, sums, pass, policies, sequence, timing);
+                    if constexpr (std::is_same_v<nephroid::detail::parameters_t<L>, NoParameters>)
+                        if (options.cross_validated)
+                            pass.smoothing =
+                                cross_validated_smoothing(scene, light, sums, pass, policies, sequence, timing);
                     report.smoothing =
                         options.first_order ? pass.smoothing.value_or(default_smoothing) : pass.smoothing;
                     layer = trace_passes(

@@ -91,7 +91,8 @@ void passes_lines(std::ostream& out, const std::string& whose, const PassReport&
 [[nodiscard]] std::string splats_text(const Options& options) {
     const std::string order = options.first_order ? "first order, " : options.curved ? "curved, " : "";
     return order + name_of(options.sequence) + ", " + name_of(options.kernel) +
-           (options.pixel_filter ? "" : ", no pixel filter");
+           (options.pixel_filter ? "" : ", no pixel filter") +
+           (options.bands ? ", " + std::to_string(*options.bands) + " bands" : "");
 }
 
 /// The light that is not counted in the fates, of one pass.
@@ -207,6 +208,7 @@ std::string json_text(const Options& options, const Report& report) {
            {"layer", json_string(name_in(layer_names(), options.layer))},
            {"bounces", report.bounces < all_bounces ? std::to_string(report.bounces) : json_string("all")},
            {"smoothing", report.smoothing ? json_number(*report.smoothing) : json_string("auto")},
+           {"bands", options.bands ? std::to_string(*options.bands) : "null"},
            {"method", json_string(name_of(options.method))},
            {"order", options.first_order ? "1" : "2"},
            {"sequence", json_string(name_of(options.sequence))},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "nephroid/emission/light.hpp"
+#include "nephroid/emission/parameters.hpp"
 
 #include <cstddef>
 #include <type_traits>
@@ -31,6 +32,10 @@ struct DomainLike<L> {
 /// ```
 template <Light L>
 class WithoutTangents : public detail::DomainLike<L> {
+    static_assert(std::is_same_v<detail::parameters_t<L>, NoParameters>,
+                  "nephroid: photons of Spectral and Extended lights are not the same without tangents: leave "
+                  "WithoutTangents out, or give it the light within");
+
 public:
     using vector = typename L::vector;
     using flux_type = typename L::flux_type;

@@ -45,7 +45,7 @@ public:
 
     /// The map of a chart that lies on its receiver, such as PlaneChart. Light comes against the direction of sight's
     /// side: normals face who looks.
-    explicit CausticMap(C chart)
+    explicit CausticMap(C chart) requires(!detail::LooksFromAfar<C>)
         : CausticMap(std::move(chart), [](const RasterRay& ray) {
               return std::optional<ReceiverPoint>({ray.origin, -1.0 * ray.direction});
           }) {}
@@ -85,8 +85,9 @@ public:
         for (int k = 0; k < 4; ++k) {
             const double i = left + (k & 1), j = low + (k >> 1);
             const double weight = (1 - std::abs(place->x - 0.5 - i)) * (1 - std::abs(place->y - 0.5 - j));
-            const Texel* const one = find(i, j);
-            if (!one || !is_on(*one, point, n, one->side()))
+            const double tile_i = columns_from_first_tile(i), tile_j = rows_from_first_tile(j);
+            const Texel* const one = find(i - tile_i, j - tile_j);
+            if (!one || !is_on(*one, point + detail::step_between_tiles(chart_, -tile_i, -tile_j), n, one->side()))
                 continue;
             sum = sum + one->irradiance * T(weight);
             weights += weight;
@@ -115,13 +116,18 @@ private:
         texel.scale = scale >= 1e-3 * place->largest_area_scale() ? float(scale) : 0;
     }
 
+    /// To the tile of a map that repeats.
+    [[nodiscard]] double columns_from_first_tile(double i) const {
+        const double columns = double(chart_.columns());
+        return detail::repeats(chart_) ? columns * std::floor(i / columns) : 0;
+    }
+    [[nodiscard]] double rows_from_first_tile(double j) const {
+        const double rows = double(chart_.rows());
+        return detail::repeats(chart_) ? rows * std::floor(j / rows) : 0;
+    }
+
     [[nodiscard]] const Texel* find(double i, double j) const {
-        const double columns = double(chart_.columns()), rows = double(chart_.rows());
-        if (detail::repeats(chart_)) {
-            i -= columns * std::floor(i / columns);
-            j -= rows * std::floor(j / rows);
-        }
-        if (!(i >= 0 && j >= 0 && i < columns && j < rows))
+        if (!(i >= 0 && j >= 0 && i < double(chart_.columns()) && j < double(chart_.rows())))
             return nullptr;
         return &texel(std::size_t(i), std::size_t(j));
     }

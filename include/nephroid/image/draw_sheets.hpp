@@ -126,11 +126,10 @@ private:
     [[nodiscard]] bool add_patch(const MapPatch<V, F>& patch, const RasterWindow& window) {
         thread_local PatchTexels texels;
         bool arrived = false;
-        const bool is_moved = window.shift_x != 0 || window.shift_y != 0;
+        const ChartVector middle = patch.middle + step_between_tiles(map_.chart(), window.shift_x, window.shift_y);
         texels.cover(patch, window, map_.chart()).visit([&](std::size_t i, std::size_t j, double amount) {
             auto& texel = map_.texel(window.column + i, window.row + j);
-            if (!(texel.scale > 0) ||
-                (!is_moved && !CausticMap<V, F, C>::is_on(texel, patch.middle, patch.normal, 2 * patch.sag)))
+            if (!(texel.scale > 0) || !CausticMap<V, F, C>::is_on(texel, middle, patch.normal, 2 * patch.sag))
                 return;
             texel.irradiance = texel.irradiance + patch.patch.flux * T(amount);
             arrived = true;

@@ -9,12 +9,15 @@
 #include "nephroid/image/caustic_map.hpp"
 #include "nephroid/image/raster_tiles.hpp"
 #include "nephroid/splat/splat_photons.hpp"
+#include "nephroid/vector/error.hpp"
+#include "nephroid/vector/text.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace nephroid {
@@ -67,6 +70,7 @@ template <Vector3 V, Flux F, std::size_t N, class C>
 template <class Map, class F, class K>
 bool add_ellipse(const RasterEllipse& e, const F& flux, const K& kernel, const RasterWindow& window, Map& map) {
     bool arrived = false;
+    const ChartVector position = e.position + step_between_tiles(map.chart(), window.shift_x, window.shift_y);
     for (std::size_t j = window.row; j < window.row + window.rows; ++j) {
         const double y = double(j) + 0.5 - (e.y + window.shift_y);
         for (std::size_t i = window.column; i < window.column + window.columns; ++i) {
@@ -75,8 +79,7 @@ bool add_ellipse(const RasterEllipse& e, const F& flux, const K& kernel, const R
             if (!(radius2 < 1))
                 continue;
             auto& texel = map.texel(i, j);
-            if (!(texel.scale > 0) ||
-                (window.shift_x == 0 && window.shift_y == 0 && !Map::is_on(texel, e.position, e.normal, e.sag)))
+            if (!(texel.scale > 0) || !Map::is_on(texel, position, e.normal, e.sag))
                 continue;
             texel.irradiance = texel.irradiance + flux * typename Map::T(e.peak * kernel(radius2));
             arrived = true;
@@ -100,7 +103,12 @@ struct MapSplatting {
 template <class Photons, Vector3 V, Flux F, class C, class E = SerialExecutor>
 Statistics draw_splats(const Photons& photons, CausticMap<V, F, C>& map, const MapSplatting& how = {},
                        E&& executor = E{}) {
-    detail::check(Rescaling{.smoothing = how.smoothing, .flux = how.filter_width});
+    if (!(how.smoothing > 0) || !std::isfinite(how.smoothing))
+        invalid_argument("nephroid::draw_splats: smoothing is " + detail::text_of(how.smoothing) +
+                         "; it must be positive and finite");
+    if (!(how.filter_width >= 0) || !std::isfinite(how.filter_width))
+        invalid_argument("nephroid::draw_splats: filter_width is " + detail::text_of(how.filter_width) +
+                         "; it must be finite and not negative");
     detail::CheckedExecutor checked(executor);
     const BiweightKernel kernel;
     const double width = how.filter_width * pixel_filter_width<BiweightKernel>;
@@ -114,6 +122,8 @@ Statistics draw_splats(const Photons& photons, CausticMap<V, F, C>& map, const M
         ellipses.assign(count, {});
         boxes.assign(count, {});
         detail::for_each_index(checked, count, per_task, [&](std::size_t i) {
+            if (!std::isfinite(double(flux_traits<F>::power(photons[first + i].flux))))
+                return;
             if (const auto e = detail::raster_ellipse(photons[first + i], how.smoothing, width, map.chart())) {
                 ellipses[i] = *e;
                 boxes[i] = e->box;
@@ -128,9 +138,12 @@ Statistics draw_splats(const Photons& photons, CausticMap<V, F, C>& map, const M
         for (std::size_t i = 0; i < count; ++i) {
             const auto& photon = photons[first + i];
             const double power = double(flux_traits<F>::power(photon.flux));
-            const bool is_valid =
-                all_finite(photon.position) && all_finite(photon.d_position[0]) && all_finite(photon.d_position[1]);
-            account.end(arrived[i] ? Fate::splatted : is_valid ? Fate::unseen : Fate::invalid, power);
+            const bool is_valid = std::isfinite(power) && all_finite(photon.position) &&
+                                  all_finite(photon.d_position[0]) && all_finite(photon.d_position[1]);
+            account.end(arrived[i] ? Fate::splatted
+                        : is_valid ? Fate::unseen
+                                   : Fate::invalid,
+                        std::isfinite(power) ? power : 0);
         }
     }
     return account;

@@ -10,6 +10,7 @@
 #include "nephroid/sheet/node_lattice.hpp"
 #include "nephroid/transport/account.hpp"
 #include "nephroid/vector/error.hpp"
+#include "nephroid/vector/text.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,6 +37,10 @@ struct PhotonGrid {
 template <Vector3 V, Flux F>
 [[nodiscard]] PhotonGrid square_grid(const EmissionChart<V, F>& chart, double nodes,
                                      NodePlaces places = NodePlaces::centres) {
+    if (!(nodes > 0) || !std::isfinite(nodes) || !(chart.width > 0) || !(chart.height > 0))
+        invalid_argument("nephroid::square_grid: " + detail::text_of(nodes) + " nodes on a chart of " +
+                         detail::text_of(chart.width) + " by " + detail::text_of(chart.height) +
+                         "; all three must be positive, and the nodes finite");
     const auto whole = [](double count) { return std::size_t(std::clamp(std::round(count), 2.0, 1048576.0)); };
     const double across = std::sqrt(nodes * chart.width / chart.height);
     return {whole(across), whole(nodes / across), places};

@@ -19,6 +19,8 @@ namespace detail {
 /// x = (row_x · d + offset_x) / w, y likewise, with d from the origin; w = row_w · d + offset_w; depth = row_z · d.
 class ProjectedChart {
 public:
+    static constexpr bool lies_on_receiver = false;
+
     [[nodiscard]] std::size_t columns() const { return columns_; }
     [[nodiscard]] std::size_t rows() const { return rows_; }
 
@@ -100,6 +102,8 @@ private:
 /// The chart of a parallelogram on a plane: a floor, a wall, a table top.
 class PlaneChart : public detail::ProjectedChart {
 public:
+    static constexpr bool lies_on_receiver = true;
+
     /// @param repeats  the parallelogram is a tile: light beyond a side comes in at the opposite one
     template <Vector3 V>
     PlaneChart(const V& corner, const V& edge_u, const V& edge_v, std::size_t columns, std::size_t rows,

@@ -61,6 +61,20 @@ template <class C>
     else
         return false;
 }
+
+/// How far apart in the scene two points of the raster are; charts that repeat look along one direction.
+template <class C>
+[[nodiscard]] ChartVector step_between_tiles(const C& chart, double columns, double rows) {
+    if (columns == 0 && rows == 0)
+        return {};
+    return chart.ray(columns, rows).origin - chart.ray(0, 0).origin;
+}
+
+/// The chart says that its lines of sight do not begin on the receiver.
+template <class C>
+concept LooksFromAfar = requires {
+    requires !bool(C::lies_on_receiver);
+};
 } // namespace detail
 
 } // namespace nephroid

@@ -99,14 +99,16 @@ void add_weights(const RaySplat<V, F>& ray, const std::array<scalar_t<V>, PointT
                  std::uint32_t leaf, Sums<V, F, R>& sums) {
     using T = scalar_t<V>;
     const TreeLeaf at = sums.map().tree().leaves()[leaf];
-    F* const sum = sums.of_leaf(leaf).data();
-    for (std::size_t i = 0; i < at.size; ++i)
-        if constexpr (std::is_same_v<R, Irradiance>)
+    if constexpr (std::is_same_v<R, Irradiance>) {
+        F* const sum = sums.of_leaf(leaf).data();
+        for (std::size_t i = 0; i < at.size; ++i)
             sum[i] = sum[i] + ray.flux * weight[i];
-        else if (weight[i] > T(0))
-            sum[i] =
-                sum[i] + ray.flux * weight[i] *
-                             sums.response()(std::size_t(sums.map().tree().index(at.first + i)), ray.beam.direction);
+    } else {
+        for (std::size_t i = 0; i < at.size; ++i)
+            if (weight[i] > T(0))
+                sums.add(at.first + i,
+                         sums.responded(at.first + i, static_cast<F>(ray.flux * weight[i]), ray.beam.direction));
+    }
 }
 
 } // namespace nephroid::detail

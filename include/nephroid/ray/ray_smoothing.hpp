@@ -60,7 +60,7 @@ template <class S, class L, class V, class F, class R, class Policies, class Seq
                                            const PhotonPass& pilot, double s, const Policies& policies,
                                            const Sequence& sequence, E& executor) {
     constexpr std::size_t vertices = 4096;
-    Sums<V, F, R> sums(like.map(), like.response());
+    Sums<V, F, response_within<R>> sums(like.map(), like.response()); // of flux: they are only compared
     const LeafSample sample(sums.map().tree(), vertices);
     RaySplatter splatter(scene, sums, policies);
     QuarterPictures pictures;

@@ -98,11 +98,11 @@ template <Vector3 V, Flux F, std::size_t N, class Policies>
 
     // The depths of the receiver's box, and of the flight.
     const Box<T> box = map.tree().bounds();
-    const auto along = [&](T d, T low, T high, bool far) { return d * ((d > T(0)) == far ? high : low); };
-    const auto support = [&](bool far) {
+    const auto along = [&](T d, T low, T high, bool is_last) { return d * ((d > T(0)) == is_last ? high : low); };
+    const auto support = [&](bool is_last) {
         const V& d = beam->direction;
-        return along(t::x(d), box.low[0], box.high[0], far) + along(t::y(d), box.low[1], box.high[1], far) +
-               along(t::z(d), box.low[2], box.high[2], far) - dot(beam->origin, d);
+        return along(t::x(d), box.low[0], box.high[0], is_last) + along(t::y(d), box.low[1], box.high[1], is_last) +
+               along(t::z(d), box.low[2], box.high[2], is_last) - dot(beam->origin, d);
     };
     const T size = largest_component(beam->origin) + map.diagonal();
     const T rounding = T(16) * std::numeric_limits<T>::epsilon() * size;

@@ -40,6 +40,19 @@ template <class... Arguments>
 concept MustNotRepeatRays = NotRepeated<RayPoliciesKind, Arguments...> && NotRepeated<SequenceKind, Arguments...> &&
     NotRepeated<ExecutorKind, Arguments...>;
 
+/// Bands are moved along a tangent where photons land, which a beam does not do.
+template <class L>
+consteval bool explain_ray_light() {
+    static_assert(
+        !has_wavelength<parameters_t<L>>,
+        "nephroid::splat_rays: a Spectral light's photons have all bands at the place of one wavelength; give "
+        "a lamp for each band, or splat it by nephroid::caustics");
+    return !has_wavelength<parameters_t<L>>;
+}
+
+template <class L>
+concept MustFitRays = explain_ray_light<L>();
+
 template <class L, class V, class Policies>
 consteval bool explain_ray_width() {
     using Width = std::remove_cvref_t<decltype(Policies::width)>;
@@ -101,7 +114,7 @@ RaySplats splat_flights(const S& scene, const L& lamp, Sums<V, F, R>& sums, cons
 /// Throws std::invalid_argument for zero photons, and for a smoothing or lengths of policies that are not positive and
 /// finite. Memory: the sums and one batch.
 template <class S, class L, class V, class F, class R, detail::MustBeRayArgument... Arguments>
-    requires(detail::MustNotRepeatRays<Arguments...>&& detail::MustEmit<L, V, F>&&
+    requires(detail::MustNotRepeatRays<Arguments...>&& detail::MustFitRays<L>&& detail::MustEmit<L, V, F>&&
                  detail::MustBeScene<S, V, Sampler<detail::sequence_among<Arguments...>>, detail::tangent_count_of<L>>)
 RaySplats splat_rays(const S& scene, const L& lamp, Sums<V, F, R>& sums, const PhotonPass& pass,
                      Arguments&&... arguments) {

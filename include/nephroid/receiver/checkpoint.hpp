@@ -54,6 +54,10 @@ template <class V>
 [[nodiscard]] std::uint64_t hash_of(const EyePathMap<V>& map) {
     const std::size_t slots = map.tree().slots();
     std::uint64_t hash = hash_bits(0, slots);
+    using t = vector_traits<V>;
+    const V at = map.tree().origin();
+    const std::array<scalar_t<V>, 3> origin{t::x(at), t::y(at), t::z(at)};
+    hash = hash_values(hash, origin.data(), origin.size()); // the coordinates are relative to it
     for (const auto* coordinates : {map.tree().x(), map.tree().y(), map.tree().z()})
         hash = hash_values(hash, coordinates, slots);
     for (const auto* normals : {map.normal_x(), map.normal_y(), map.normal_z()})
@@ -94,6 +98,8 @@ inline void check(const CheckpointHeader& read, const CheckpointHeader& expected
         refuse_checkpoint("the checkpoint is of another receiver: its eye path vertices differ");
     if (read.number_size != expected.number_size || !(read.unit == expected.unit))
         refuse_checkpoint("the checkpoint's sums are made of other numbers: another flux, accumulator or power");
+    if (read.size != expected.size)
+        refuse_checkpoint("the checkpoint is damaged: its size is not that of its sums; use an older one");
 }
 
 } // namespace detail

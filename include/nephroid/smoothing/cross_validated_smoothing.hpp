@@ -2,11 +2,14 @@
 /// @file  Chooses the best single smoothing for a pass by comparing pictures from parts of its photons.
 #pragma once
 
+#include "nephroid/emission/parameters.hpp"
 #include "nephroid/smoothing/cross_validation.hpp"
 #include "nephroid/smoothing/pilot.hpp"
 #include "nephroid/smoothing/second_order/policies.hpp"
 #include "nephroid/splat/landed_photon.hpp"
 #include "nephroid/splat/splat_arguments.hpp"
+
+#include <type_traits>
 
 namespace nephroid {
 
@@ -38,6 +41,9 @@ template <class S, class L, class V, class F, class R, detail::MustBeSplatArgume
                  detail::MustBeScene<detail::scene_for<S, L>, V, Sampler<detail::sequence_among<Arguments...>>>)
 [[nodiscard]] double cross_validated_smoothing(const S& scene, const L& light, const Sums<V, F, R>& sums,
                                                const PhotonPass& pass, Arguments&&... arguments) {
+    static_assert(std::is_same_v<detail::parameters_t<L>, NoParameters>,
+                  "nephroid: cross_validated_smoothing scales all tangents, and those of Spectral and Extended lights "
+                  "by wavelength and extent have a size of their own; give a smoothing, or leave it to caustics");
     static_assert(Light<L>, "nephroid: cross_validated_smoothing needs a light with tangents, not WithoutTangents");
     detail::check(pass, "nephroid::cross_validated_smoothing");
     return detail::with_splat_arguments<Default>(

@@ -10,6 +10,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
 namespace nephroid::detail {
@@ -51,7 +52,9 @@ void prepare_bands(const Splatter<V, F, R, Policies>& splatter, const Deposit<V,
     if constexpr (requires { splatter.policies().filter.width_scale; })
         reach = sqrt(square(reach) + square(T(pixel_filter_width<Kernel> * splatter.policies().filter.width_scale) *
                                             splatter.map().spacing_at(deposit.position)));
-    const double apart = length_of_streak > T(0) ? 0.2 * double(reach) / double(length_of_streak) : 1;
+    // Where nothing disperses there is no streak, and all bands are one group.
+    const double apart =
+        length_of_streak > T(0) ? 0.2 * double(reach) / double(length_of_streak) : (std::numeric_limits<double>::max)();
 
     const double emitted = double(flux_traits<F>::power(deposit.flux));
     const double splatted = splatter.prepare_each(

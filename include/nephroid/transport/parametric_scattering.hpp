@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// @file  What a surface does with a photon that has parameters: what the scene says, which tangents change the index
-///             of
-///        refraction, and what the parameters are told of it.
+///        of refraction, and what the parameters are told of it.
 #pragma once
 
 #include "nephroid/emission/parameters.hpp"

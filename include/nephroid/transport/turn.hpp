@@ -76,6 +76,15 @@ void note_glass([[maybe_unused]] const Photon<V, F, N>& photon, [[maybe_unused]]
         });
 }
 
+/// Whether a reflection names the indices on both sides of the surface.
+template <class T, class Scattering>
+[[nodiscard]] constexpr bool is_off_glass([[maybe_unused]] const Scattering& scattering) {
+    if constexpr (requires { T(scattering.eta); })
+        return scattering.event == Event::reflect && T(scattering.eta) != T(1);
+    else
+        return false;
+}
+
 /// Reflects or refracts a photon about a normal that faces it; a refraction changes the medium.
 ///
 /// @return  false, with nothing changed, if the photon would leave on the wrong side of the surface
@@ -99,7 +108,7 @@ template <Vector3 V, Flux F, std::size_t N, class Medium, class H, class Scatter
     const Reflection<V> reflected(photon.direction, normal);
     if (!(dot(photon.direction, normal) < T(0)) || !(dot(reflected.direction(), geometric_normal) > T(0)))
         return false;
-    if (scattering.event == Event::refract)
+    if (scattering.event == Event::refract || is_off_glass<T>(scattering))
         note_glass(photon, normal, hit, scattering);
     apply_turn(photon, reflected, normal, hit, scattering);
     return true;
