@@ -191,7 +191,11 @@ for scene in gold-ring prism embedded-torus swimming-pool; do
         fail "$scene: $(cat errors.txt)"
     at_least "$(value m.json 'caustic photons')" 100 "$scene: caustic photons"
 done
-"$caustics" prism --bands 16 --photons 500 --size 24 --output m.png >m.txt || fail "prism in bands"
+# A prism parts the colours: without bands all of them lie in one place.
+"$caustics" prism --layer caustics --photons 500 --size 24 --output white.pfm >m.txt || fail "prism"
+"$caustics" prism --layer caustics --bands 16 --photons 500 --size 24 --reference white.pfm --output m.png \
+    --json m.json >m.txt || fail "prism in bands"
+at_least "$(value m.json rel)" 0.5 "prism in bands against all in one place: rel"
 
 # Rooms, and light between diffuse surfaces: the same for any number of threads, with its account in the statistics.
 few="--photons 5000 --size 24"
