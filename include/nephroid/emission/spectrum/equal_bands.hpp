@@ -2,6 +2,8 @@
 /// @file  How a spectrum is divided into bands.
 #pragma once
 
+#include "nephroid/vector/language.hpp"
+
 #include <algorithm>
 #include <concepts>
 #include <cstddef>
