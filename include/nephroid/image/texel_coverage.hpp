@@ -5,6 +5,8 @@
 /// Source: Levien 2016, "Inside the fastest font renderer in the world".
 #pragma once
 
+#include "nephroid/vector/language.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
