@@ -68,8 +68,11 @@ public:
     ///
     /// @param sag  how far the surface may leave its tangent plane between the two, world units
     [[nodiscard]] static bool is_on(const Texel& texel, const ChartVector& x, const ChartVector& normal, double sag) {
-        return texel.scale > 0 && dot(texel.surface.normal, normal) > 0.2 &&
-               std::abs(dot(normal, texel.surface.position - x)) <= 0.5 * texel.side() + sag;
+        if (!(texel.scale > 0) || !(dot(texel.surface.normal, normal) > 0.2))
+            return false;
+        // At most half of the texel's side, 1/√scale, without the root: this is asked for each texel of each patch.
+        const double beyond = std::abs(dot(normal, texel.surface.position - x)) - sag;
+        return beyond <= 0 || 4 * beyond * beyond * double(texel.scale) <= 1;
     }
 
     /// The irradiance at a point of a surface: between the four nearest texels that see this surface, linearly. Zero

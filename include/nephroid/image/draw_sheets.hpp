@@ -49,9 +49,12 @@ public:
     void draw(MapAccount& account) {
         const std::size_t rows = buffer_.grid().rows, columns = buffer_.grid().columns,
                           batch = (std::max)(std::size_t(1), cells_per_batch / columns);
+        whole_.assign(rows * columns, 0);
         for (std::size_t first = 0; first + 1 < rows; first += batch) {
             rows_.assign((std::min)(batch, rows - 1 - first), {});
-            executor_(rows_.size(), [&](std::size_t row) { make_row(first + row, rows_[row]); });
+            changes_.assign(rows_.size() + 1, {});
+            executor_(changes_.size(), [&](std::size_t row) { find_changes(first + row, changes_[row]); });
+            executor_(rows_.size(), [&](std::size_t row) { make_row(first + row, row); });
             draw_rows(account);
         }
         broken_.assign(rows, {});
@@ -84,7 +87,23 @@ private:
         return c;
     }
 
-    void make_row(std::size_t j, std::vector<MapPatch<V, F>>& row) const {
+    /// How places change from node to node along a row of nodes, for all their ends.
+    struct RowChanges {
+        std::vector<std::array<Double3, 2>> of_ends;
+        std::vector<std::size_t> first; ///< of each node
+    };
+
+    void find_changes(std::size_t j, RowChanges& row) const {
+        for (std::size_t i = 0; i < buffer_.grid().columns; ++i) {
+            row.first.push_back(row.of_ends.size());
+            for (const End& end : buffer_.ends(i, j))
+                row.of_ends.push_back(neighbour_changes(buffer_, i, j, end));
+        }
+    }
+
+    /// The cells above a row of nodes. @param batch_row  in the batch
+    void make_row(std::size_t j, std::size_t batch_row) {
+        std::vector<MapPatch<V, F>>& row = rows_[batch_row];
         const T area = T(buffer_.step_u() * buffer_.step_v());
         for (std::size_t i = 0; i + 1 < buffer_.grid().columns; ++i)
             for (const End& end : buffer_.ends(i, j)) {
@@ -94,13 +113,16 @@ private:
                 LitPatch<V, F> patch{};
                 for (std::size_t a = 0; a < 2; ++a)
                     for (std::size_t b = 0; b < 2; ++b) {
-                        const auto change = neighbour_changes(buffer_, i + a, j + b, *c[a][b]);
+                        const RowChanges& changes = changes_[batch_row + b];
+                        const std::size_t of_node = std::size_t(c[a][b] - buffer_.ends(i + a, j + b).data());
+                        const auto& change = changes.of_ends[changes.first[i + a] + of_node];
                         patch.corners[a][b] = {double3(c[a][b]->position), change[0], change[1]};
                         patch.normal[a][b] = double3(c[a][b]->normal);
                         patch.direction[a][b] = double3(c[a][b]->direction);
                     }
                 patch.flux = static_cast<F>(
                     (c[0][0]->density + c[0][1]->density + (c[1][0]->density + c[1][1]->density)) * (T(0.25) * area));
+                ++whole_[j * buffer_.grid().columns + i];
                 row.push_back(map_patch(patch, how_.tessellation, map_.chart()));
                 row.back().turn = i + j;
             }
@@ -141,7 +163,9 @@ private:
     void find_broken(std::size_t j, TangentPhotons<V, F>& row) const {
         const std::size_t columns = buffer_.grid().columns, rows = buffer_.grid().rows;
         const double quarter = 0.25 * buffer_.step_u() * buffer_.step_v();
-        for (std::size_t i = 0; i < columns; ++i)
+        for (std::size_t i = 0; i < columns; ++i) {
+            if (is_inside_sheets(i, j))
+                continue;
             for (const End& end : buffer_.ends(i, j)) {
                 int broken = 0;
                 for (std::size_t b = j > 0 ? 0 : 1; b < (j + 1 < rows ? 2u : 1u); ++b)
@@ -154,6 +178,18 @@ private:
                                             static_cast<F>(end.density * T(quarter * broken)),
                                             tangents_of(buffer_, i, j, end, row)});
             }
+        }
+    }
+
+    /// Whether as many sheets as a node has ends go through each of the cells about it: those that its ends are on.
+    [[nodiscard]] bool is_inside_sheets(std::size_t i, std::size_t j) const {
+        const std::size_t columns = buffer_.grid().columns, rows = buffer_.grid().rows,
+                          ends = buffer_.ends(i, j).size();
+        for (std::size_t b = j > 0 ? 0 : 1; b < (j + 1 < rows ? 2u : 1u); ++b)
+            for (std::size_t a = i > 0 ? 0 : 1; a < (i + 1 < columns ? 2u : 1u); ++a)
+                if (whole_[(j + b - 1) * columns + i + a - 1] != ends)
+                    return false;
+        return true;
     }
 
     const PhotonBuffer<V, F>& buffer_;
@@ -162,8 +198,10 @@ private:
     E& executor_;
     RasterTiles tiles_;
     std::vector<std::vector<MapPatch<V, F>>> rows_;
+    std::vector<RowChanges> changes_;
     std::vector<const MapPatch<V, F>*> patches_;
     std::vector<RasterBox> boxes_;
+    std::vector<std::uint32_t> whole_; ///< of each cell, by its first node: the sheets that go through it
     std::vector<TangentPhotons<V, F>> broken_;
 };
 } // namespace detail

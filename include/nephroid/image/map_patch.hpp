@@ -82,39 +82,75 @@ public:
                 scale_[j * (m + 1) + i] = place->area_scale(made.normal);
             }
         }
-        const double share = 0.5 / double(m * m);
-        for (std::size_t j = 0; j < m; ++j)
-            for (std::size_t i = 0; i < m; ++i) {
-                const std::size_t a = j * (m + 1) + i, b = a + 1, d = a + m + 1, c = d + 1;
-                if ((i + j + made.turn) % 2 == 0)
-                    add(a, b, c, share), add(a, c, d, share);
-                else
-                    add(a, b, d, share), add(b, c, d, share);
-            }
+        weigh_triangles(m, made.turn);
+        add_edges(m, made.turn);
         return coverage_;
     }
 
 private:
-    void add(std::size_t a, std::size_t b, std::size_t c, double share) {
+    /// The two triangles of a quad, as the weights of their edges; 0 for what is added as a point or a line.
+    struct QuadWeights {
+        double low, high; ///< on the side of the quad's lower row of corners, and of its upper one
+    };
+
+    /// Whether a quad is cut from its first corner to the last, or between the two others.
+    [[nodiscard]] static bool cut_from_first(std::size_t i, std::size_t j, std::size_t turn) {
+        return (i + j + turn) % 2 == 0;
+    }
+
+    void weigh_triangles(std::size_t m, std::size_t turn) {
+        weights_.resize(m * m);
+        const double share = 0.5 / double(m * m);
+        for (std::size_t j = 0; j < m; ++j)
+            for (std::size_t i = 0; i < m; ++i) {
+                const std::size_t a = j * (m + 1) + i, b = a + 1, d = a + m + 1, c = d + 1;
+                weights_[j * m + i] = cut_from_first(i, j, turn)
+                                          ? QuadWeights{weigh(a, b, c, share), weigh(a, c, d, share)}
+                                          : QuadWeights{weigh(a, b, d, share), weigh(b, c, d, share)};
+            }
+    }
+
+    /// Each edge once: with the weight on its left less that on its right.
+    void add_edges(std::size_t m, std::size_t turn) {
+        constexpr QuadWeights none{0, 0};
+        const auto quad = [&](std::size_t i, std::size_t j) { return i < m && j < m ? weights_[j * m + i] : none; };
+        for (std::size_t j = 0; j <= m; ++j)
+            for (std::size_t i = 0; i <= m; ++i) {
+                const TexelPoint* const a = &points_[j * (m + 1) + i];
+                const QuadWeights here = quad(i, j), left = quad(i - 1, j), below = quad(i, j - 1);
+                if (i < m)
+                    coverage_.add_edge(a[0], a[1], here.low - below.high);
+                if (j < m) {
+                    // The lower triangle has the right side where the cut begins at the first corner, else the left.
+                    const double right_of_left = cut_from_first(i - 1, j, turn) ? left.low : left.high;
+                    coverage_.add_edge(a[0], a[m + 1],
+                                       right_of_left - (cut_from_first(i, j, turn) ? here.high : here.low));
+                }
+                if (i < m && j < m) {
+                    if (cut_from_first(i, j, turn))
+                        coverage_.add_edge(a[0], a[m + 2], here.high - here.low);
+                    else
+                        coverage_.add_edge(a[1], a[m + 1], here.low - here.high);
+                }
+            }
+    }
+
+    /// The weight of a triangle's edges, counter-clockwise; without area, or within a texel, it is added here instead.
+    [[nodiscard]] double weigh(std::size_t a, std::size_t b, std::size_t c, double share) {
         const TexelPoint &p = points_[a], &q = points_[b], &r = points_[c];
         const double amount = share * (scale_[a] + scale_[b] + scale_[c]) / 3;
+        if (TexelCoverage::share_texel(p, q) && TexelCoverage::share_texel(p, r)) {
+            coverage_.add_point(p, amount);
+            return 0;
+        }
         const double ux = q.x - p.x, uy = q.y - p.y, vx = r.x - p.x, vy = r.y - p.y;
         const double area = 0.5 * (ux * vy - uy * vx);
-        const auto column = std::floor(p.x), row = std::floor(p.y);
-        if (std::floor(q.x) == column && std::floor(q.y) == row && std::floor(r.x) == column &&
-            std::floor(r.y) == row) {
-            coverage_.add_point(p, amount); // within one texel
-            return;
-        }
         const double size2 = (std::max)({ux * ux + uy * uy, vx * vx + vy * vy, square(vx - ux) + square(vy - uy)});
         if (std::abs(area) <= 1e-8 + 1e-6 * size2) {
             add_line(p, q, r, amount);
-            return;
+            return 0;
         }
-        const double weight = amount / area;
-        coverage_.add_edge(p, q, weight);
-        coverage_.add_edge(q, r, weight);
-        coverage_.add_edge(r, p, weight);
+        return amount / area;
     }
 
     /// A triangle without area: along its longest side, in steps of an eighth of a texel.
@@ -135,6 +171,7 @@ private:
     TexelCoverage coverage_;
     std::vector<TexelPoint> points_;
     std::vector<double> scale_;
+    std::vector<QuadWeights> weights_;
 };
 
 } // namespace nephroid::detail

@@ -26,6 +26,8 @@ public:
 
     [[nodiscard]] std::optional<RasterPlace> place(const ChartVector& point) const {
         const ChartVector d = point - origin_;
+        if (!is_perspective_) // w = 1, and four divisions less
+            return RasterPlace{dot(row_x_, d) + offset_x_, dot(row_y_, d) + offset_y_, row_x_, row_y_, dot(row_z_, d)};
         const double w = dot(row_w_, d) + offset_w_;
         if (!(w > 0))
             return std::nullopt;

@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <utility>
+#include <cstdint>
 #include <vector>
 
 namespace nephroid::detail {
@@ -25,10 +25,14 @@ class TexelCoverage {
 public:
     /// Begins anew. @param columns, rows  of the window
     void reset(std::size_t columns, std::size_t rows) {
+        clear();
         columns_ = columns, rows_ = rows;
         stride_ = columns + 2;
-        sums_.assign(stride_ * rows, 0.0);
-        points_.assign(columns * rows, 0.0);
+        if (sums_.size() < stride_ * rows) {
+            sums_.resize(stride_ * rows, 0.0);
+            points_.resize(stride_ * rows, 0.0);
+        }
+        spans_.assign(rows, {});
     }
 
     /// Adds an edge. The edges of a triangle, head to tail and with one weight, add weight · area to each texel, where
@@ -44,18 +48,37 @@ public:
         const double slope = (b.x - a.x) / (b.y - a.y);
         // An edge that goes up has the inside of a counter-clockwise triangle on its left.
         const double sign = is_up ? -weight : weight;
+        const bool is_within = (std::min)(a.x, b.x) >= 0 && (std::max)(a.x, b.x) <= double(columns_);
         const auto last = (std::min)(std::size_t(y1), rows_ - 1);
+        double low = y0, x = a.x + slope * (low - a.y);
         for (auto row = std::size_t(y0); row <= last; ++row) {
-            const double low = (std::max)(y0, double(row)), high = (std::min)(y1, double(row + 1));
-            if (low < high)
-                add_in_row(row, a.x + slope * (low - a.y), a.x + slope * (high - a.y), sign * (high - low));
+            const double high = (std::min)(y1, double(row + 1));
+            if (!(low < high))
+                break;
+            // The last end is the point itself: rounding could put it beyond the window.
+            const double end = high == b.y ? b.x : a.x + slope * (high - a.y);
+            if (is_within)
+                add_within_row(row, (std::min)(x, end), (std::max)(x, end), sign * (high - low));
+            else
+                add_in_row(row, (std::min)(x, end), (std::max)(x, end), sign * (high - low));
+            low = high, x = end;
         }
+    }
+
+    /// Whether two points lie in one texel, of those that are on the window; it may say so of others, which get nothing.
+    [[nodiscard]] static bool share_texel(const TexelPoint& a, const TexelPoint& b) {
+        constexpr double above_zero = 1 << 20; // so that truncation rounds downwards
+        const auto number = [](double x) { return std::int64_t(x + above_zero); };
+        return number(a.x) == number(b.x) && number(a.y) == number(b.y);
     }
 
     /// Adds to the texel of a point, without an area.
     void add_point(const TexelPoint& p, double amount) {
-        if (p.x >= 0 && p.y >= 0 && p.x < double(columns_) && p.y < double(rows_))
-            points_[std::size_t(p.y) * columns_ + std::size_t(p.x)] += amount;
+        if (p.x >= 0 && p.y >= 0 && p.x < double(columns_) && p.y < double(rows_)) {
+            const auto row = std::size_t(p.y), column = std::size_t(p.x);
+            points_[row * stride_ + column] += amount;
+            spans_[row].include(column, column + 1);
+        }
     }
 
     /// Calls visit(column, row, amount) for each texel that got anything. A running sum leaves 10⁻¹⁶ of a row's
@@ -63,12 +86,14 @@ public:
     template <class Visit>
     void visit(const Visit& visit) const {
         for (std::size_t row = 0; row < rows_; ++row) {
+            const double* const sums = sums_.data() + row * stride_;
+            const double* const points = points_.data() + row * stride_;
             double sum = 0, largest = 0;
-            for (std::size_t column = 0; column < columns_; ++column) {
-                const double change = sums_[row * stride_ + column];
-                sum += change;
-                largest = (std::max)({largest, std::abs(change), std::abs(sum)});
-                const double amount = (sum > 1e-13 * largest ? sum : 0) + points_[row * columns_ + column];
+            const std::size_t end = (std::min)(spans_[row].end, columns_);
+            for (std::size_t column = spans_[row].first; column < end; ++column) {
+                sum += sums[column];
+                largest = (std::max)({largest, std::abs(sums[column]), std::abs(sum)});
+                const double amount = (sum > 1e-13 * largest ? sum : 0) + points[column];
                 if (amount > 0)
                     visit(column, row, amount);
             }
@@ -76,45 +101,75 @@ public:
     }
 
 private:
-    /// A piece of an edge within a row, with its height as weight.
+    /// The columns of a row in which anything changes.
+    struct Span {
+        std::size_t first = std::size_t(-1), end = 0;
+
+        void include(std::size_t from, std::size_t to) {
+            first = (std::min)(first, from);
+            end = (std::max)(end, to);
+        }
+    };
+
+    /// Only what was written: most of a window's texels lie beside a slanted patch.
+    void clear() {
+        for (std::size_t row = 0; row < spans_.size(); ++row)
+            if (const Span& span = spans_[row]; span.first < span.end) {
+                std::fill(&sums_[row * stride_ + span.first], &sums_[row * stride_] + span.end, 0.0);
+                std::fill(&points_[row * stride_ + span.first], &points_[row * stride_] + span.end, 0.0);
+            }
+    }
+
+    /// A piece of an edge in a row, from x0 to x1 >= x0, with its height as weight.
     void add_in_row(std::size_t row, double x0, double x1, double weight) {
-        if (x0 > x1)
-            std::swap(x0, x1);
         const double right = double(columns_);
-        double* const sums = sums_.data() + row * stride_;
-        if (x1 <= 0) {
-            sums[0] += weight;
+        if (x0 >= right) { // what is open on its left stays so up to the border
+            spans_[row].end = stride_;
             return;
         }
-        if (x0 >= right)
+        if (x1 <= 0) {
+            sums_[row * stride_] += weight;
+            spans_[row].include(0, 1);
             return;
+        }
         const double per_x = weight / (std::max)(x1 - x0, 1e-300);
         if (x0 < 0) {
-            sums[0] += per_x * -x0;
+            sums_[row * stride_] += per_x * -x0;
+            spans_[row].include(0, 1);
             weight = per_x * x1;
             x0 = 0;
         }
         if (x1 > right) {
+            spans_[row].end = stride_;
             weight = per_x * (right - x0);
             x1 = right;
         }
+        add_within_row(row, x0, x1, weight);
+    }
+
+    /// The same for a piece that lies on the window.
+    void add_within_row(std::size_t row, double x0, double x1, double weight) {
+        double* const sums = sums_.data() + row * stride_;
         const auto first = std::size_t(x0), last = std::size_t(x1);
+        spans_[row].include(first, last + 2);
         if (first == last) {
-            const double middle = 0.5 * (x0 + x1) - double(first);
-            sums[first] += weight * (1 - middle);
-            sums[first + 1] += weight * middle;
+            const double part = weight * (0.5 * (x0 + x1) - double(first));
+            sums[first] += weight - part;
+            sums[first + 1] += part;
             return;
         }
+        const double per_x = weight / (x1 - x0);
         for (std::size_t column = first; column <= last; ++column) {
             const double low = (std::max)(x0, double(column)), high = (std::min)(x1, double(column + 1));
-            const double part = per_x * (high - low), middle = 0.5 * (low + high) - double(column);
-            sums[column] += part * (1 - middle);
-            sums[column + 1] += part * middle;
+            const double whole = per_x * (high - low), part = whole * (0.5 * (low + high) - double(column));
+            sums[column] += whole - part;
+            sums[column + 1] += part;
         }
     }
 
     std::size_t columns_ = 0, rows_ = 0, stride_ = 2;
     std::vector<double> sums_, points_;
+    std::vector<Span> spans_;
 };
 
 } // namespace nephroid::detail
