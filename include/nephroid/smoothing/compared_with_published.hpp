@@ -1,103 +1,199 @@
 // SPDX-License-Identifier: MIT
-/// @file  A safety net for lamps with area: which are better splatted as published than with the footprints chosen.
+/// @file  A safety net for lamps with area: how large their footprints are, or whether they are splatted as published.
 ///
 /// Tangents do not tell where light jumps from one flat facet to the next, and in four emission coordinates photons are
-/// too far from each other to see it in where they land. Pictures do: those of one half of the photons predict those of
-/// the other [cross_validation.hpp].
+/// too far from each other to see it in where they land. Pictures do: those of the pilot, with footprints of several
+/// sizes and with the published ones, are compared with a sharp picture of photons that are independent of it.
+/// Derivation: include/nephroid/README.md, "Lamps with area: the size by pictures".
 #pragma once
 
-#include "nephroid/smoothing/cross_validation.hpp"
+#include "nephroid/sequence/hash.hpp"
 #include "nephroid/smoothing/pilot.hpp"
+#include "nephroid/smoothing/quarter_pictures.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <map>
+#include <limits>
+#include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 namespace nephroid::detail {
 
-/// The squared error of a pass, summed over the vertices, plus a constant: from pictures of a part of its photons with
-/// the footprints of the pass. In four coordinates even photons of a stratified sequence are nearly random, so that
-/// halves are independent and the variance falls with the number of photons.
-///
-/// @param sharp  pictures of the same quarters with small footprints
-/// @param share  of the pass's photons that the pictures are made of, in (0, 1]
-[[nodiscard]] inline double validated_error_of_pass(const QuarterPictures& q, const QuarterPictures& sharp,
-                                                    double share) {
-    double variance = 0; // of the picture from all quarters
-    for (std::size_t i = 0; i < q[0].size(); ++i)
-        variance += square(0.25 * ((q[0][i] + q[1][i]) - (q[2][i] + q[3][i])));
-    return validated_error(q, sharp, 1) - (1 - share) * variance;
+/// A photon to judge footprints by.
+template <class Deposit>
+struct HeldOutPhoton {
+    std::optional<Deposit> deposit; ///< emitted with smoothing 1
+    std::uint32_t light = 0;
+};
+
+/// As many photons as the pilot has, but independent of the pass: their indices are drawn at random. The halves of a
+/// stratified sequence are not independent. They fill each other's gaps, and how well depends on the scene.
+template <class S, class L, class Photon, class Sequence, class E>
+[[nodiscard]] auto trace_held_out(const S& scene, const L& light, const PhotonPass& pass, const Pilot<Photon>& pilot,
+                                  const Sequence& sequence, E& executor) {
+    using Deposit = typename decltype(Photon::deposit)::value_type;
+    constexpr std::size_t fewest = std::size_t(1) << 14; // fewer know too little of a sharp focus
+    std::vector<HeldOutPhoton<Deposit>> photons((std::max)(pilot.photons.size(), fewest));
+    announce(executor, Phase::trace);
+    for_each_index(executor, photons.size(), 512, [&](std::size_t i) {
+        const std::uint64_t index = hash_bits(pilot.first, i) >> 32; // no sequence is asked for more than 2³² photons
+        Statistics unused;
+        PathTrail<typename L::vector> trail;
+        const auto photon = trace_photon(scene, light, pass, sequence, index, unused, trail);
+        photons[i] = {photon.deposit, photon.sample.light};
+    });
+    return photons;
 }
 
-/// Whether photons of one lamp with area, splatted as published, predict each other better than with the footprints
-/// chosen for them: as a mean over the three ways to pair their quarters to halves. (Pieces of curved footprints are
-/// compared as one.)
-///
-/// @param picture_of  picture_of(smoothing, is_chosen) -> QuarterPictures
-/// @param share       of the pass's photons that are in the pictures
-/// @param whole       undoes what widens the footprints of a part
-template <class PictureOf>
-[[nodiscard]] bool is_published_better(const PictureOf& picture_of, double share, double whole) {
-    constexpr double sharpest = 2.5; // as cross_validated has it
-    const QuarterPictures sharp = picture_of(sharpest, false);
-    const QuarterPictures published = picture_of(default_smoothing * whole, false);
-    const QuarterPictures chosen = picture_of(whole, true);
-    double lead = 0;
-    for (std::size_t with_first = 1; with_first < 4; ++with_first) {
-        const auto paired = [with_first](QuarterPictures q) {
-            std::swap(q[1], q[with_first]);
-            return q;
-        };
-        lead += validated_error_of_pass(paired(chosen), paired(sharp), share) -
-                validated_error_of_pass(paired(published), paired(sharp), share);
+/// The picture from all four quarters.
+[[nodiscard]] inline std::vector<double> mean_of(const QuarterPictures& q) {
+    std::vector<double> mean(q[0].size());
+    for (std::size_t i = 0; i < mean.size(); ++i)
+        mean[i] = 0.25 * ((q[0][i] + q[1][i]) + (q[2][i] + q[3][i]));
+    return mean;
+}
+
+/// The variance of that picture, summed over the vertices, if the quarters are independent.
+[[nodiscard]] inline double variance_of_mean(const QuarterPictures& q) {
+    double sum = 0;
+    for (std::size_t i = 0; i < q[0].size(); ++i) {
+        const double mean = 0.25 * ((q[0][i] + q[1][i]) + (q[2][i] + q[3][i]));
+        for (const std::vector<double>& quarter : q)
+            sum += square(quarter[i] - mean) / 12;
     }
-    return lead > 0;
+    return sum;
 }
 
-/// The lamps with area, by number, that are better splatted as published; rising.
+[[nodiscard]] inline double squared_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += square(a[i] - b[i]);
+    return sum;
+}
+
+/// The squared difference of the means that two kinds of pictures have, summed over the vertices; without the pictures'
+/// noise, as only quarters that have no photon in common are multiplied.
 ///
+/// @param p,q  of the same independent quarters
+[[nodiscard]] inline double squared_bias(const QuarterPictures& p, const QuarterPictures& q) {
+    double sum = 0;
+    for (std::size_t i = 0; i < p[0].size(); ++i) {
+        double sum_p = 0, sum_q = 0, pp = 0, qq = 0, pq = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            sum_p += p[k][i], sum_q += q[k][i];
+            pp += square(p[k][i]), qq += square(q[k][i]), pq += p[k][i] * q[k][i];
+        }
+        // All products, less those of a quarter with itself: 12 pairs.
+        sum += (square(sum_p) - pp + square(sum_q) - qq - 2 * (sum_p * sum_q - pq)) / 12;
+    }
+    return sum;
+}
+
+/// Compares pictures of the pilot with a sharp one of photons that are independent of it.
+class HeldOutPicture {
+public:
+    /// @param sharp  pictures of its quarters with small footprints
+    explicit HeldOutPicture(QuarterPictures sharp) : sharp_(std::move(sharp)), mean_(mean_of(sharp_)) {}
+
+    /// The squared error of a picture, summed over the vertices, plus a constant.
+    [[nodiscard]] double error(const std::vector<double>& picture) const { return squared_difference(picture, mean_); }
+
+    /// The standard error of a difference of two errors, from that of the quarters.
+    [[nodiscard]] double standard_error(const std::vector<double>& p, const std::vector<double>& q) const {
+        std::array<double, 4> products{};
+        double mean = 0, square_sum = 0;
+        for (std::size_t k = 0; k < 4; ++k) {
+            for (std::size_t i = 0; i < p.size(); ++i)
+                products[k] += 2 * (p[i] - q[i]) * sharp_[k][i];
+            mean += products[k] / 4;
+        }
+        for (const double product : products)
+            square_sum += square(product - mean);
+        return std::sqrt(square_sum / 12);
+    }
+
+    /// The variance of a stratified picture over that of independent quarters, one minus the part that they fill in of
+    /// each other's gaps; nothing where noise hides it.
+    ///
+    /// @param picture   of stratified photons
+    /// @param held_out  with the same footprints, of the held out ones
+    [[nodiscard]] std::optional<double> stratification(const QuarterPictures& picture,
+                                                       const QuarterPictures& held_out) const {
+        const double variance = error(mean_of(picture)) - variance_of_mean(sharp_) - squared_bias(held_out, sharp_);
+        const double share = variance / variance_of_mean(picture);
+        return share > 0.1 && share < 1.5 ? std::optional(share) : std::nullopt;
+    }
+
+private:
+    QuarterPictures sharp_;
+    std::vector<double> mean_;
+};
+
+/// Chooses for each lamp with area how large its footprints are, over those that the field chose; or the published
+/// ones, unless others are better beyond doubt.
+///
+/// @param held_out    of trace_held_out
 /// @param footprints  of a pass whose smoothing is not given
-template <class V, class F, class R, class Policies, class Photon, class Footprints, class E>
-[[nodiscard]] std::vector<std::uint32_t>
-lamps_better_published(const Sums<V, F, R>& sums, const Policies& policies, const Pilot<Photon>& pilot,
-                       const Footprints& footprints, const PhotonPass& pass, E& executor) {
-    constexpr std::size_t fewest = 1000; // photons of a lamp that must land, to tell
-    std::map<std::uint32_t, std::size_t> landed;
+template <class V, class F, class R, class Policies, class Photon, class Deposit, class Footprints, class E>
+void choose_sizes(const Sums<V, F, R>& sums, const Policies& policies, const Pilot<Photon>& pilot,
+                  const std::vector<HeldOutPhoton<Deposit>>& held_out, const PhotonPass& pass, Footprints& footprints,
+                  E& executor) {
+    constexpr double sharpest = 2.5; // as cross_validated has it
+    constexpr double least_size = 0.2, step = 0.7071;
+    std::set<std::uint32_t> lamps;
     for (const Photon& photon : pilot.photons)
         if (photon.sample.coordinates == 4 && photon.deposit)
-            ++landed[photon.sample.light];
-    std::vector<std::uint32_t> published;
-    if (landed.empty())
-        return published;
+            lamps.insert(photon.sample.light);
     announce(executor, Phase::fit);
     const auto silent = [&executor](std::size_t count, const auto& task) { executor(count, task); };
     const std::size_t count = pilot.photons.size();
-    const double photons = double(pass.emitted_in_all());
-    std::uint32_t lamp = 0;
-    bool is_chosen = false;
-    const auto deposit_of = [&](std::size_t i) {
-        Photon photon = pilot.photons[i];
-        if (photon.sample.coordinates != 4 || photon.sample.light != lamp)
-            photon.deposit.reset();
-        else if (photon.deposit && is_chosen)
-            (void)footprints.apply(photon);
-        return photon.deposit;
-    };
-    QuarterSplatter splat(sums, policies, count, photons, deposit_of, silent);
-    const auto picture_of = [&](double smoothing, bool chosen) {
-        is_chosen = chosen;
-        return splat(smoothing);
-    };
-    for (const auto& [number, deposits] : landed) {
-        lamp = number;
-        if (deposits >= fewest &&
-            is_published_better(picture_of, double(count) / photons, std::sqrt(double(count / 4 * 4) / photons)))
-            published.push_back(number);
+    const double photons = double(pass.emitted_in_all()), share = double(count) / photons;
+    const double whole = std::sqrt(double(count / 4 * 4) / photons); // undoes what widens the footprints of a part
+    for (const std::uint32_t lamp : lamps) {
+        const auto held_out_deposit = [&](std::size_t i) {
+            return held_out[i].light == lamp ? held_out[i].deposit : std::nullopt;
+        };
+        const auto deposit = [&](std::size_t i) {
+            Photon photon = pilot.photons[i];
+            if (photon.sample.coordinates != 4 || photon.sample.light != lamp)
+                photon.deposit.reset();
+            else if (photon.deposit)
+                (void)footprints.apply(photon); // pieces of curved footprints are compared as one
+            return photon.deposit;
+        };
+        QuarterSplatter splat_held_out(sums, policies, held_out.size(), photons, held_out_deposit, silent);
+        QuarterSplatter splat(sums, policies, count, photons, deposit, silent);
+        const HeldOutPicture sharp(splat_held_out(sharpest));
+        footprints.set_size(lamp, 0);
+        const QuarterPictures published = splat(whole);
+        double part = 0; // of a picture's variance that more photons take away
+        if (share < 1) {
+            const auto stratification = sharp.stratification(published, splat_held_out(default_smoothing * whole));
+            if (!stratification)
+                continue;
+            part = (1 - share) * *stratification;
+        }
+        std::vector<double> best;
+        double best_size = 0, least_error = std::numeric_limits<double>::infinity();
+        for (double size = 1; size > least_size; size *= step) {
+            footprints.set_size(lamp, size);
+            const QuarterPictures quarters = splat(whole);
+            std::vector<double> picture = mean_of(quarters);
+            const double error = sharp.error(picture) - part * variance_of_mean(quarters);
+            if (!(error < least_error))
+                break;
+            best_size = size, least_error = error, best = std::move(picture);
+        }
+        const std::vector<double> picture = mean_of(published);
+        const double error = sharp.error(picture) - part * variance_of_mean(published);
+        const bool is_better = !best.empty() && least_error + sharp.standard_error(best, picture) < error;
+        footprints.set_size(lamp, is_better ? best_size : 0);
     }
-    return published;
 }
 
 } // namespace nephroid::detail

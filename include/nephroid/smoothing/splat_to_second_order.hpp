@@ -87,7 +87,8 @@ Statistics splat_to_second_order(const S& scene, const L& light, Sums<V, F, R>& 
                 sums, policies, pilot, pass, Sequence::stratified, executor));
     if constexpr (emission_domains<L>.four)
         if (!pass.smoothing && std::isfinite(policies.order.largest_miss))
-            footprints.splat_as_published(lamps_better_published(sums, policies, pilot, footprints, pass, executor));
+            choose_sizes(sums, policies, pilot, trace_held_out(scene, light, pass, pilot, sequence, executor), pass,
+                         footprints, executor);
     Splatter splatter(sums, policies);
     TracedBatch<traced_photon_t<L>> batch;
     const auto trace_one = [&](std::uint64_t i, Statistics& account) {

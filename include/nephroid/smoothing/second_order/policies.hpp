@@ -41,8 +41,8 @@ struct SecondOrder {
                                   ///< that change is limited to a quarter of the footprint as well
     /// How far neighbours may land from where fitted tangents predict, over the distance that the tangents' lengths
     /// predict, >= 0. If many of a path's cells miss by more, as on facets, its photons are splatted as published and
-    /// counted (`Statistics::splatted_as_published`). Lamps with area are splatted so if pictures of the pilot's
-    /// quarters say that it is better. Infinity: never; nor if the pass gives a smoothing or the domain repeats.
+    /// counted (`Statistics::splatted_as_published`). Lamps with area are splatted so too, unless pictures of the pilot
+    /// say that other footprints are better. Infinity: never; nor if the pass gives a smoothing or the domain repeats.
     double largest_miss = 0.1;
     std::uint64_t pilot = 1u << 16; ///< how many of the pass's first photons the footprints are chosen from, >= 1
     bool domain_repeats = false; ///< whether the scene repeats over the light's patch (a tile of endless water, say),

@@ -11,15 +11,13 @@
 #include "nephroid/smoothing/second_order/light_fields.hpp"
 #include "nephroid/smoothing/second_order/shifted_deposit.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
-#include <utility>
-#include <vector>
 
 namespace nephroid::detail {
 
@@ -52,10 +50,10 @@ public:
     /// `default_smoothing`.
     void set_smoothing_without_neighbours(double smoothing) { smoothing_without_neighbours_ = smoothing; }
 
-    /// From here on photons of these lamps with area get the published footprints, and no shift.
+    /// From here on the footprints of a lamp with area are so many times as long and as wide as those chosen.
     ///
-    /// @param lamps  their numbers, rising
-    void splat_as_published(std::vector<std::uint32_t> lamps) { published_lamps_ = std::move(lamps); }
+    /// @param size  0: its photons get the published footprints, and no shift
+    void set_size(std::uint32_t lamp, double size) { sizes_[lamp] = size; }
 
     /// Gives a photon's deposit its footprint and shifts it.
     ///
@@ -64,10 +62,12 @@ public:
     template <Flux F, std::size_t N, class P>
     AppliedFootprint apply(TracedPhoton<V, F, N, P>& photon, std::array<Double3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
-        const bool is_left = photon.sample.coordinates == 4 &&
-                             std::binary_search(published_lamps_.begin(), published_lamps_.end(), photon.sample.light);
-        const std::optional<FieldSample> found =
-            photon.frame.is_regular() && !is_left ? fields_.at(photon) : std::nullopt;
+        const double size = photon.sample.coordinates == 4 ? size_of(photon.sample.light) : 1;
+        std::optional<FieldSample> found = photon.frame.is_regular() && size > 0 ? fields_.at(photon) : std::nullopt;
+        if (found && size != 1) {
+            found->shape = size * size * found->shape;
+            found->divergence = size * size * found->divergence;
+        }
         if (!found || !(found->shape.determinant() > 0) || !std::isfinite(found->shape.trace())) {
             const double fallback = !has_neighbours(photon.sample)   ? smoothing_without_neighbours_
                                     : photon.sample.coordinates == 2 ? options_.policy.bounds.least
@@ -84,10 +84,15 @@ public:
     }
 
 private:
+    [[nodiscard]] double size_of(std::uint32_t lamp) const {
+        const auto found = sizes_.find(lamp);
+        return found != sizes_.end() ? found->second : 1;
+    }
+
     Options options_;
     double smoothing_without_neighbours_ = default_smoothing;
     LightFields<domains> fields_;
-    std::vector<std::uint32_t> published_lamps_;
+    std::map<std::uint32_t, double> sizes_; ///< of lamps with area
 };
 
 } // namespace nephroid::detail
