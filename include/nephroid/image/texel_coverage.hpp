@@ -65,7 +65,7 @@ public:
         }
     }
 
-    /// Whether two points lie in one texel, of those that are on the window; it may say so of others, which get nothing.
+    /// Whether two points lie in one texel, of those on the window; it may say so of others, which get nothing.
     [[nodiscard]] static bool share_texel(const TexelPoint& a, const TexelPoint& b) {
         constexpr double above_zero = 1 << 20; // so that truncation rounds downwards
         const auto number = [](double x) { return std::int64_t(x + above_zero); };
