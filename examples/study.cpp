@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// @file  Measures the library's claims against exact results: `study compare`, `study smoothing`, `study relax`,
 ///        `study spectrum`, which leave figures, plots, pictures and a page with all of them in a folder; and `study
-///        image`.
+///        image` and `study judge`, which print.
 #include "common/study/compare/command.hpp"
 #include "common/study/image/command.hpp"
+#include "common/study/judge/command.hpp"
 #include "common/study/relax/command.hpp"
 #include "common/study/smoothing/command.hpp"
 #include "common/study/spectrum/command.hpp"
@@ -36,11 +37,14 @@ void run(int argc, const char* const* argv) {
     CLI::App& spectrum_app =
         *app.add_subcommand("spectrum", "Colours by tangents, against brute force, three indices and none");
     CLI::App& image_app = *app.add_subcommand("image", "Photons on a grid, drawn onto a raster: error and flicker");
+    CLI::App& judge_app =
+        *app.add_subcommand("judge", "The default against the published method, on scenes from seeds");
     const study::compare::Command compare(compare_app);
     const study::smoothing::Command smoothing(smoothing_app);
     const study::relax::Command relax(relax_app);
     const study::spectrum::Command spectrum(spectrum_app);
     const study::image::Command image(image_app);
+    const study::judge::Command judge(judge_app);
     if (!parse(app, argc, argv))
         return;
     const std::string command = command_line(argc, argv);
@@ -50,6 +54,8 @@ void run(int argc, const char* const* argv) {
         smoothing.run(command);
     if (image_app.parsed())
         image.run();
+    if (judge_app.parsed())
+        judge.run();
     if (relax_app.parsed())
         relax.run(command);
     if (spectrum_app.parsed())
