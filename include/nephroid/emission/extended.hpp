@@ -3,7 +3,6 @@
 #pragma once
 
 #include "nephroid/emission/light.hpp"
-#include "nephroid/emission/light/validate.hpp"
 #include "nephroid/emission/target.hpp"
 #include "nephroid/emission/without_tangents.hpp"
 #include "nephroid/vector/error.hpp"

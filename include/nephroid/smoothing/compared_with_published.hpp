@@ -154,6 +154,11 @@ void choose_sizes(const Sums<V, F, R>& sums, const Policies& policies, const Pil
     const std::size_t count = pilot.photons.size();
     const double photons = double(pass.emitted_in_all()), share = double(count) / photons;
     const double whole = std::sqrt(double(count / 4 * 4) / photons); // undoes what widens the footprints of a part
+    std::vector<std::optional<FieldSample>> chosen(lamps.empty() ? 0 : count);
+    for_each_index(executor, chosen.size(), 512, [&](std::size_t i) {
+        if (pilot.photons[i].deposit && pilot.photons[i].sample.coordinates == 4)
+            chosen[i] = footprints.chosen_by_field(pilot.photons[i]);
+    });
     for (const std::uint32_t lamp : lamps) {
         const auto held_out_deposit = [&](std::size_t i) {
             return held_out[i].light == lamp ? held_out[i].deposit : std::nullopt;
@@ -163,7 +168,7 @@ void choose_sizes(const Sums<V, F, R>& sums, const Policies& policies, const Pil
             if (photon.sample.coordinates != 4 || photon.sample.light != lamp)
                 photon.deposit.reset();
             else if (photon.deposit)
-                (void)footprints.apply(photon); // pieces of curved footprints are compared as one
+                (void)footprints.apply(photon, chosen[i]); // pieces of curved footprints are compared as one
             return photon.deposit;
         };
         QuarterSplatter splat_held_out(sums, policies, held_out.size(), photons, held_out_deposit, silent);

@@ -61,10 +61,23 @@ public:
     /// @param second  if not null, gets the map's second derivatives (`shift_deposit`); 0 where they are not known
     template <Flux F, std::size_t N, class P>
     AppliedFootprint apply(TracedPhoton<V, F, N, P>& photon, std::array<Double3, 3>* second = nullptr) const {
+        return apply(photon, size_of(photon.sample) > 0 ? chosen_by_field(photon) : std::nullopt, second);
+    }
+
+    /// What the field says of a photon, which takes the longest: for who needs it more than once.
+    template <Flux F, std::size_t N, class P>
+    [[nodiscard]] std::optional<FieldSample> chosen_by_field(const TracedPhoton<V, F, N, P>& photon) const {
+        return photon.frame.is_regular() ? fields_.at(photon) : std::nullopt;
+    }
+
+    /// @param found  of chosen_by_field
+    template <Flux F, std::size_t N, class P>
+    AppliedFootprint apply(TracedPhoton<V, F, N, P>& photon, std::optional<FieldSample> found,
+                           std::array<Double3, 3>* second = nullptr) const {
         Deposit<V, F, N>& deposit = *photon.deposit;
-        const double size = photon.sample.coordinates == 4 ? size_of(photon.sample.light) : 1;
-        std::optional<FieldSample> found = photon.frame.is_regular() && size > 0 ? fields_.at(photon) : std::nullopt;
-        if (found && size != 1) {
+        if (const double size = size_of(photon.sample); size == 0)
+            found.reset();
+        else if (found && size != 1) {
             found->shape = size * size * found->shape;
             found->divergence = size * size * found->divergence;
         }
@@ -84,8 +97,8 @@ public:
     }
 
 private:
-    [[nodiscard]] double size_of(std::uint32_t lamp) const {
-        const auto found = sizes_.find(lamp);
+    [[nodiscard]] double size_of(const EmissionSample& sample) const {
+        const auto found = sample.coordinates == 4 ? sizes_.find(sample.light) : sizes_.end();
         return found != sizes_.end() ? found->second : 1;
     }
 
