@@ -24,23 +24,26 @@ struct FootprintPlace {
 template <class R>
 [[nodiscard]] inline R edge_integral(R a_s, R a_t, R b_s, R b_t) {
     constexpr R least = R(1e-20); // what is shorter has no area in the precision of R; keeps quotients finite
+    // Chosen by arithmetic, as GCC makes branches of conditional expressions around divisions, and then no vector
+    // instructions. x + |x| is 2x or 0, exactly.
     const auto clamped = [](R x) {
-        const R above = x > R(0) ? x : R(0);
+        const R above = R(0.5) * (x + abs(x));
         return above < R(1) ? above : R(1);
     };
     const R run = b_s - a_s, rise = b_t - a_t;
     const R from_t = clamped(a_t), to_t = clamped(b_t);
-    const bool is_level = (rise < R(0) ? -rise : rise) < least;
-    const R slope = run / (is_level ? R(1) : rise);
+    const R level = abs(rise) < least ? R(1) : R(0);
+    const R slope = run / (rise + level);
     // Each end is computed from its own corner. If it is not clamped it is exactly the corner, as for the next edge.
     const R from_s = a_s + (from_t - a_t) * slope, to_s = b_s - (b_t - to_t) * slope;
     const R from_l = clamped(from_s), to_l = clamped(to_s);
     const R from_g = from_s > R(1) ? from_s : R(1), to_g = to_s > R(1) ? to_s : R(1);
     const R span = to_s - from_s;
-    const bool is_upright = (span < R(0) ? -span : span) < least;
+    const R upright = abs(span) < least ? R(1) : R(0);
     const R integral = R(0.5) * (to_l - from_l) * (from_l + to_l) + (to_g - from_g);
-    const R mean = is_upright ? from_l : integral / (is_upright ? R(1) : span);
-    return is_level ? R(0) : (to_t - from_t) * mean;
+    const R quotient = integral / (span + upright);
+    const R mean = quotient + upright * (from_l - quotient);
+    return (R(1) - level) * ((to_t - from_t) * mean);
 }
 
 template <class R>
