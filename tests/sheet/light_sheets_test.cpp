@@ -66,6 +66,39 @@ struct Shelves {
     }
 };
 
+/// A pane at z = 1. It passes light straight on to the floor, z = 0, but for the share that it reflects to a ceiling,
+/// z = 2. The ceiling ends at x = 0.43, so that the reflected sheet does, and the other one does not.
+struct Pane {
+    static constexpr float ceiling_end = 0.43f;
+    float reflected;
+
+    [[nodiscard]] std::optional<PlainHit> intersect(const Vec3& o, const Vec3& d, float t_min, float t_max) const {
+        std::optional<PlainHit> hit;
+        for (const float height : {0.0f, 1.0f, 2.0f}) {
+            const float t = (height - o.z) / d.z;
+            if (t > t_min && t < t_max && (!hit || t < hit->distance) && (height < 2 || o.x < ceiling_end))
+                hit = PlainHit{t, {0, 0, 1}, {}, 1e-6f, height == 1};
+        }
+        return hit;
+    }
+
+    template <class Random>
+    [[nodiscard]] Scattering<float, float> scatter(const PlainHit&, const Vec3&, Random&) const {
+        return Scattering<float, float>::deposit();
+    }
+
+    [[nodiscard]] Ways<Scattering<float, float>, 2> scatter_all(const PlainHit& hit, const Vec3&) const {
+        Ways<Scattering<float, float>, 2> ways;
+        if (!hit.is_mirror) {
+            ways.add(Scattering<float, float>::deposit());
+        } else {
+            ways.add(Scattering<float, float>::refract(1 - reflected, 1));
+            ways.add(Scattering<float, float>::reflect(reflected));
+        }
+        return ways;
+    }
+};
+
 using Vertex = tests::Vertex<Vec3>;
 
 constexpr int side = 32; // pixels
@@ -90,9 +123,9 @@ struct Result {
     std::vector<float> irradiance; ///< by vertex
 };
 
-template <class L>
-[[nodiscard]] Result draw(const Shelves& scene, const L& light, const std::vector<Vertex>& vertices,
-                          std::uint64_t nodes, unsigned threads = 1) {
+template <class S = Shelves, class L>
+[[nodiscard]] Result draw(const S& scene, const L& light, const std::vector<Vertex>& vertices, std::uint64_t nodes,
+                          unsigned threads = 1) {
     const EyePathMap<Vec3> map(vertices, &Vertex::position, &Vertex::normal);
     auto sums = nephroid::sums<float>(map);
     ThreadExecutor executor(threads);
@@ -216,6 +249,32 @@ TEST_CASE("light sheets: a mirror smaller than its beam loses no light at its en
     CHECK(light.emitted.flux == doctest::Approx(0.64));
     CHECK(light.accounted_flux() + result.statistics.unresolved == doctest::Approx(light.emitted.flux).epsilon(1e-6));
     CHECK(std::abs(result.statistics.unresolved) < 0.02); // nodes weigh the borders by whole cells
+}
+
+TEST_CASE("light sheets: where a dim sheet ends few photons look for its end, and little light is misplaced") {
+    std::vector<Vertex> vertices;
+    for (const float height : {0.0f, 2.0f})
+        for (int j = 0; j < side; ++j)
+            for (int i = 0; i < side; ++i)
+                vertices.push_back(
+                    {{(float(i) + 0.5f) / side, (float(j) + 0.5f) / side, height}, {0, 0, height > 1 ? -1.0f : 1.0f}});
+    const DirectionalLight<Vec3, float> down(
+        {.direction = {0, 0, -1}, .irradiance = 1, .patch = Parallelogram<Vec3>{{0, 0, 1.5f}, {1, 0, 0}, {0, 1, 0}}});
+    std::uint64_t nodes = 0;
+    for (const float reflected : {0.5f, 0.01f}) {
+        CAPTURE(reflected);
+        const Result result = draw(Pane{reflected}, down, vertices, 1000);
+        double above = 0, below = 0;
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            (vertices[i].position.z > 1 ? above : below) += double(result.irradiance[i]) / (side * side);
+        CHECK(below == doctest::Approx(1 - reflected).epsilon(1e-4));
+        // Where a sheet as bright as the other one ends is known to an eighth of a pixel. Of a dim one no more light is
+        // misplaced.
+        CHECK(std::abs(above - double(reflected * Pane::ceiling_end)) < 0.5 / 8 / side);
+        if (nodes > 0)
+            CHECK(result.statistics.sheets.nodes + 100 < nodes);
+        nodes = result.statistics.sheets.nodes;
+    }
 }
 
 TEST_CASE("light sheets: what is too broken to be drawn is handed over whole, and none of it is drawn") {

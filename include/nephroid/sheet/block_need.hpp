@@ -34,11 +34,17 @@ public:
         if (!reaches_vertices(extent))
             return {};
         const double pixel = pixels_.pixel_at(extent.middle());
+        double broken = 0, brightest = 0;
         for (const auto& row : block)
             for (const NodeEnds<V, F>& ends : row)
-                for (const Node& end : ends)
-                    if (!is_whole<V, F>(block, end.signature, pixel))
-                        return need_of_broken(block, extent.size(), pixel);
+                for (const Node& end : ends) {
+                    const double power = flux_traits<F>::power(end.density);
+                    brightest = (std::max)(brightest, power);
+                    if (power > broken && !is_whole<V, F>(block, end.signature, pixel))
+                        broken = power;
+                }
+        if (broken > 0)
+            return need_of_broken(block, extent.size() * broken / brightest, pixel);
         BlockNeed need;
         for (const Node& end : block[0][0]) {
             const Miss miss = largest_miss<V, F>(block, place, step, known, end.signature, pixel);
@@ -92,6 +98,8 @@ private:
 
     /// A broken block that is smaller than a quarter of a pixel need not be split, unless so few of its nodes are lit
     /// that most of a sheet may be missed.
+    ///
+    /// @param size  of the block, times the part of the brightest light that the brightest broken sheet has
     [[nodiscard]] static BlockNeed need_of_broken(const Block& block, double size, double pixel) {
         if (count_lit<V, F>(block) < 5)
             return {(std::max)(float(4 * size / pixel), 2.0f), true};

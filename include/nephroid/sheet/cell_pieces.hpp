@@ -87,15 +87,32 @@ private:
         if (is_whole)
             add_patch(cell, ends, pixel);
         else
-            OutlineFinder<V, F, Nodes, decltype(pixel)>(nodes_, pixel, halvings_of(cell))
+            OutlineFinder<V, F, Nodes, decltype(pixel)>(nodes_, pixel, halvings_of(cell, share_of(ends, corners)))
                 .visit_pieces(cell.place, cell.step, ends, is_joined,
                               [&](const CellOutline<V, F>& outline) { outlines_.push_back(outline); });
     }
 
-    /// How often a cell's sides are halved: down to the same length for cells of all sizes, but at least twice.
-    [[nodiscard]] unsigned halvings_of(const Cell& cell) const {
+    /// The density of a sheet's light at a cell's corners, as a part of the brightest one's: 0 to 1.
+    [[nodiscard]] static double share_of(const std::array<const Node*, 4>& ends,
+                                         const std::array<NodeEnds<V, F>, 4>& corners) {
+        double own = 0, brightest = 0;
+        for (const Node* const end : ends)
+            if (end)
+                own = (std::max)(own, flux_traits<F>::power(end->density));
+        for (const NodeEnds<V, F>& all : corners)
+            for (const Node& end : all)
+                brightest = (std::max)(brightest, flux_traits<F>::power(end.density));
+        return brightest > 0 ? own / brightest : 1;
+    }
+
+    /// How often a cell's sides are halved: down to the same length for cells of all sizes, but at least twice. Of a
+    /// dim sheet once less for each halving of its light, so that what may be misplaced is the same for all: glass has
+    /// many dim sheets, and each node is all of their paths.
+    [[nodiscard]] unsigned halvings_of(const Cell& cell, double share) const {
         unsigned halvings = Lattice::bisections;
         for (std::int64_t step = cell.step; step < lattice_.step() && halvings > 2; step *= 2)
+            --halvings;
+        for (; share <= 0.5 && halvings > 0; share *= 2)
             --halvings;
         return halvings;
     }
