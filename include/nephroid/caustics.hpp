@@ -32,9 +32,9 @@ namespace nephroid {
 /// @return  what became of the flux, with counts
 /// Throws std::invalid_argument for zero photons, a smoothing that is not positive, and options of `SecondOrder` that
 /// make no sense.
-/// Memory: the sums, one batch, and the pilot photons of second-order splatting, whatever the number of photons; while
-/// it compares pictures, of lights without a domain and of lights with area (smoothing/cross_validation.hpp), a second
-/// copy of the sums.
+/// Memory: the sums, one batch, and the pilot photons of second-order splatting, whatever the number of photons. While
+/// it compares pictures: of lights without a domain (smoothing/cross_validation.hpp) a second copy of the sums; of
+/// lights with area (smoothing/compared_with_published.hpp) two more, and as many deposits as the pilot has.
 template <class S, class L, class V, class F, class R, detail::MustBeSplatArgument... Arguments>
     requires(detail::MustNotRepeat<Arguments...>&& detail::MustEmit<L, V, F>&&
                  detail::MustBeScene<detail::scene_for<S, L>, V, Sampler<detail::sequence_among<Arguments...>>>)
