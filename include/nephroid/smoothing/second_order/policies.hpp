@@ -44,7 +44,9 @@ struct SecondOrder {
     /// counted (`Statistics::splatted_as_published`). Lamps with area are splatted so too, unless pictures of the pilot
     /// say that other footprints are better. Infinity: never; nor if the pass gives a smoothing or the domain repeats.
     double largest_miss = 0.1;
-    std::uint64_t pilot = 1u << 16; ///< how many of the pass's first photons the footprints are chosen from, >= 1
+    /// How many of the pass's first photons the footprints are chosen from, >= 1. For lamps with area as many again are
+    /// traced to judge them by, at least 16,384, which are not in the picture.
+    std::uint64_t pilot = 1u << 16;
     bool domain_repeats = false; ///< whether the scene repeats over the light's patch (a tile of endless water, say),
                                  ///< so that opposite borders of the patch are neighbours; has no effect on area lights
 };
