@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: MIT
 // expect: splat_rays: a Spectral light's photons have all bands at the place of one wavelength
-#include "messages/renderer.hpp"
+#include "messages/spectral.hpp"
 
-#include "nephroid/emission/spectrum/spectral.hpp"
 #include "nephroid/ray/splat_rays.hpp"
 
-using Sixteen = nephroid::Bands<float, 16>;
-
-struct Glass : Scene {
-    nephroid::Scattering<Sixteen, float> scatter(const Hit&, const V&, auto&, const auto&) const { return {}; }
-};
-
 int main() {
-    const nephroid::DirectionalLight<V, Sixteen> sun16(
-        {.direction = V(0, 0, -1), .irradiance = Sixteen(1), .patch = nephroid::BoundingSphere<V>{V(0, 0, 0), 1}});
-    const nephroid::Spectral light(sun16, nephroid::EqualBands<16>{});
     auto sums = nephroid::sums<Sixteen>(map);
-    nephroid::splat_rays(Glass{}, light, sums, {.count = 1});
+    nephroid::splat_rays(Glass{}, spectral_light, sums, {.count = 1});
 }
