@@ -7,6 +7,7 @@
 #include "nephroid/sequence/random.hpp"
 
 #include "bounce/closed_rooms.hpp"
+#include "support/message_of.hpp"
 
 #include <doctest/doctest.h>
 
@@ -16,7 +17,6 @@
 #include <cstdint>
 #include <numbers>
 #include <numeric>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -64,16 +64,6 @@ template <class F, class S, class L, class... Arguments>
         for (V* const v : {&wall.corner, &wall.u, &wall.v})
             *v = v->x * a + v->y * b + v->z * c;
     return room;
-}
-
-template <class Call>
-[[nodiscard]] std::string message_of(const Call& call) {
-    try {
-        call();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
 }
 
 } // namespace

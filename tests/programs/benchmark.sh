@@ -22,11 +22,7 @@ grep -q "relaxation.*nanoflann" table.txt || fail "no row of relaxation: $(cat t
 refuses() { # words in the message, arguments
     words=$1
     shift
-    status=0
-    "$benchmark" "$@" >out.txt 2>errors.txt || status=$?
-    [ $status -eq 2 ] || fail "status $status for: $*"
-    [ "$(wc -l <errors.txt)" -eq 1 ] || fail "not one line for $*: $(cat errors.txt)"
-    grep -q -- "$words" errors.txt || fail "no '$words' for $*: $(cat errors.txt)"
+    must_refuse 2 "$words" "$benchmark" "$@"
 }
 refuses "nothing-like-it" matrix nothing-like-it
 refuses "repetitions" matrix --repetitions 0

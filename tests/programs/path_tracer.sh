@@ -68,11 +68,7 @@ refuses() { # words in the message, arguments
     words=$1
     shift
     rm -f refused.pfm
-    status=0
-    "$tracer" "$@" --output refused.pfm >out.txt 2>errors.txt || status=$?
-    [ $status -eq 2 ] || fail "status $status for: $*"
-    [ "$(wc -l <errors.txt)" -eq 1 ] || fail "not one line for $*: $(cat errors.txt)"
-    grep -q -- "$words" errors.txt || fail "no '$words' for $*: $(cat errors.txt)"
+    must_refuse 2 "$words" "$tracer" "$@" --output refused.pfm
     [ ! -e refused.pfm ] || fail "left a picture behind: $*"
 }
 refuses "no area" wave-focused

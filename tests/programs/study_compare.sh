@@ -94,11 +94,7 @@ grep -q '"reference": "mean.pfm"' out/results.json || fail "the reference is not
 refuses() { # status, words in the message, arguments
     expected=$1 words=$2
     shift 2
-    status=0
-    "$study" compare "$@" --output refused >out.txt 2>errors.txt || status=$?
-    [ $status -eq "$expected" ] || fail "status $status for $*: $(cat errors.txt)"
-    [ "$(wc -l <errors.txt)" -eq 1 ] || fail "not one line for $*: $(cat errors.txt)"
-    grep -q -- "$words" errors.txt || fail "no '$words' for $*: $(cat errors.txt)"
+    must_refuse "$expected" "$words" "$study" compare "$@" --output refused
 }
 refuses 2 "no-such-case" no-such-case
 refuses 2 "case" --photons 1000

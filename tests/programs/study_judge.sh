@@ -23,11 +23,7 @@ grep -q ' / ' table.txt || fail "no best s: $(cat table.txt)"
 refuses() { # words in the message, arguments
     words=$1
     shift
-    status=0
-    "$study" judge "$@" >out.txt 2>errors.txt || status=$?
-    [ $status -eq 2 ] || fail "status $status for: $*"
-    [ "$(wc -l <errors.txt)" -eq 1 ] || fail "not one line for $*: $(cat errors.txt)"
-    grep -q -- "$words" errors.txt || fail "no '$words' for $*: $(cat errors.txt)"
+    must_refuse 2 "$words" "$study" judge "$@"
 }
 refuses "there is no 'gem'" --kinds gem
 refuses "there is no 'torch'" --lamps sun,torch

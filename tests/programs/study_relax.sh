@@ -72,11 +72,7 @@ grep -q "feature search" timing.txt && grep -q "one iteration" timing.txt || fai
 refuses() { # status, words in the message, arguments
     expected=$1 words=$2
     shift 2
-    status=0
-    "$study" relax "$@" --output refused >out.txt 2>errors.txt || status=$?
-    [ $status -eq "$expected" ] || fail "status $status for: $*"
-    [ "$(wc -l <errors.txt)" -eq 1 ] || fail "not one line for $*: $(cat errors.txt)"
-    grep -q -- "$words" errors.txt || fail "no '$words' for $*: $(cat errors.txt)"
+    must_refuse "$expected" "$words" "$study" relax "$@" --output refused
     [ ! -e refused ] || fail "left a folder behind: $*"
 }
 printf 'no picture' >broken.png

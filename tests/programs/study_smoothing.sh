@@ -31,11 +31,7 @@ is_sanitized ||
 refuses() { # words in the message, arguments
     words=$1
     shift
-    status=0
-    "$study" smoothing "$@" >out.txt 2>errors.txt || status=$?
-    [ $status -eq 2 ] || fail "status $status for: $*"
-    [ "$(wc -l <errors.txt)" -eq 1 ] || fail "not one line for $*: $(cat errors.txt)"
-    grep -q -- "$words" errors.txt || fail "no '$words' for $*: $(cat errors.txt)"
+    must_refuse 2 "$words" "$study" smoothing "$@"
 }
 refuses "cases" --cases ring,none
 refuses "photons" --photons 5

@@ -23,11 +23,7 @@ awk -F'|' '/Error in/ { table = $0 } $2 ~ /^ *1000 *$/ && !(table in few) { few[
 refuses() { # words in the message, arguments
     words=$1
     shift
-    status=0
-    "$study" spectrum "$@" >out.txt 2>errors.txt || status=$?
-    [ $status -eq 2 ] || fail "status $status for: $*"
-    [ "$(wc -l <errors.txt)" -eq 1 ] || fail "not one line for $*: $(cat errors.txt)"
-    grep -q -- "$words" errors.txt || fail "no '$words' for $*: $(cat errors.txt)"
+    must_refuse 2 "$words" "$study" spectrum "$@"
 }
 refuses "size" --size 4
 refuses "--walks" --walks 5

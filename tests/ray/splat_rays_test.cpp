@@ -6,6 +6,7 @@
 #include "nephroid/sequence/halton.hpp"
 
 #include "ray/uniform_field.hpp"
+#include "support/message_of.hpp"
 
 #include <doctest/doctest.h>
 
@@ -13,7 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -49,16 +49,6 @@ template <class S, class L, class... Arguments>
     std::vector<float> all(vertices.size());
     sums.for_each([&](std::size_t vertex, float e) { all[vertex] = e; });
     return all;
-}
-
-template <class Call>
-[[nodiscard]] std::string message_of(const Call& call) {
-    try {
-        call();
-    } catch (const std::invalid_argument& error) {
-        return error.what();
-    }
-    return "";
 }
 
 } // namespace
