@@ -67,8 +67,9 @@ public:
 
     /// Whether two points lie in one texel, of those on the window; it may say so of others, which get nothing.
     [[nodiscard]] static bool share_texel(const TexelPoint& a, const TexelPoint& b) {
-        constexpr double above_zero = 1 << 20; // so that truncation rounds downwards
-        const auto number = [](double x) { return std::int64_t(x + above_zero); };
+        const auto number = [](double x) { // truncation rounds downwards above zero
+            return std::int32_t(std::clamp(x, -beyond_windows, beyond_windows) + beyond_windows);
+        };
         return number(a.x) == number(b.x) && number(a.y) == number(b.y);
     }
 
@@ -166,6 +167,8 @@ private:
             sums[column + 1] += part;
         }
     }
+
+    static constexpr double beyond_windows = 1 << 20; ///< texels: all windows are smaller
 
     std::size_t columns_ = 0, rows_ = 0, stride_ = 2;
     std::vector<double> sums_, points_;
