@@ -28,3 +28,4 @@ refuses() { # words in the message, arguments
 refuses "there is no 'gem'" --kinds gem
 refuses "there is no 'torch'" --lamps sun,torch
 refuses "--photons" --photons 5
+refuses "--sequence: one at a time" --sequence r2,random

@@ -17,6 +17,7 @@
 #include <cmath>
 #include <iostream>
 #include <span>
+#include <variant>
 #include <vector>
 
 namespace nephroid::examples::study::judge {
@@ -85,6 +86,7 @@ Command::Command(CLI::App& app) {
     app.add_option("--photons", photons_, "Numbers of photons, growing [5000,20000,200000]");
     app.add_option("--kinds", kinds_, "wave, slab, glass-ball, mirror-ball, ring, facets, mesh [all]");
     app.add_option("--lamps", lamps_, "sun, point, disk [all]");
+    app.add_option("--sequence", sequence_, "halton, sobol, r2 or random [halton]");
     app.add_option("--truth", truth_, "Photons of the truth [2000000]")->check(CLI::Range(10'000, 1'000'000'000));
     app.add_option("--size", size_, "Pixels a side [128]")->check(CLI::Range(16, 2048));
     app.add_option("--threads", threads_, "[1]");
@@ -95,6 +97,10 @@ Command::Command(CLI::App& app) {
 void Command::run() const {
     const auto counts = read_photon_counts(photons_);
     const auto of_kinds = numbers_of("--kinds", kinds_, kinds), of_lamps = numbers_of("--lamps", lamps_, lamps);
+    const auto sequences = read_sequences(sequence_);
+    if (sequences.size() != 1)
+        throw UsageError("--sequence: one at a time");
+    const AnySequence sequence = make_sequence(sequences.front(), 0);
     check_threads(threads_);
     ThreadExecutor executor(threads_);
     Table table{"judge",
@@ -114,7 +120,11 @@ void Command::run() const {
                 const EyePathMap map(points, &FloorPoint::position, &FloorPoint::normal);
                 const auto picture = [&](const PhotonPass& pass, const auto& policies) {
                     auto sums = nephroid::sums<float>(map);
-                    (void)caustics(one.scene, one.light, sums, pass, policies, executor);
+                    std::visit(
+                        [&](const auto& chosen) {
+                            (void)caustics(one.scene, one.light, sums, pass, policies, chosen, executor);
+                        },
+                        sequence);
                     std::vector<double> irradiance(points.size());
                     sums.for_each([&](std::size_t vertex, float sum) { irradiance[vertex] = double(sum); });
                     return irradiance;

@@ -22,7 +22,7 @@ public:
     void run() const;
 
 private:
-    std::string photons_ = "5000,20000,200000", kinds_, lamps_, format_ = "text";
+    std::string photons_ = "5000,20000,200000", kinds_, lamps_, sequence_ = "halton", format_ = "text";
     std::uint64_t seed_ = 11, seeds_ = 1, truth_ = 2'000'000;
     unsigned size_ = 128, threads_ = 1;
     bool best_ = false;
